@@ -158,8 +158,7 @@ void reportRefits(const Options& options, Report& report) {
 void runBuild(const Options& options, Report& report) {
   if (wanted(options, "refit")) reportRefits(options, report);
   if (!options.part.empty() && options.part != "models") return;
-  for (const int size : {1000, 20000, 80000}) {
-    if (options.quick && size > 1000) break;
+  for (const int size : allowed(options, {1000, 20000, 80000, 320000, 1000000})) {
     const scenes::Mesh torus = scenes::bumpyTorus(size);
     race("build/welded/" + std::to_string(size), {torus}, options, report);
     if (size == 80000 || options.quick) {

@@ -136,7 +136,7 @@ std::vector<Setting> thresholdSettings() {
 Errors judge(const std::vector<ErrorQuestion>& questions, const Asked& asked,
              const std::vector<Bracket>& answers, double extent) {
   const double rounding = 1e-14 * extent;
-  double rel_sum = 0, max = 0, width = 0;
+  double rel_sum = 0, rel_max = 0, max = 0, width = 0;
   std::size_t apart = 0, wrong = 0;
   for (std::size_t i = 0; i < questions.size(); ++i) {
     const double exact = questions[i].distance;
@@ -154,13 +154,16 @@ Errors judge(const std::vector<ErrorQuestion>& questions, const Asked& asked,
     if (exact == 0) continue;
     ++apart;
     rel_sum += error / exact;
+    rel_max = std::max(rel_max, error / exact);
   }
   Errors errors;
   errors.wrong = wrong;
   if (asked.threshold) return errors;
   errors.max_abs = max;
   if (std::isfinite(width)) errors.bracket_width = width / static_cast<double>(questions.size());
-  if (apart > 0) errors.mean_rel = rel_sum / static_cast<double>(apart);
+  if (apart == 0) return errors;
+  errors.max_rel = rel_max;
+  errors.mean_rel = rel_sum / static_cast<double>(apart);
   return errors;
 }
 

@@ -37,7 +37,7 @@ constexpr Scenario kScenarios[] = {
     {"tori", "falling spinning generated scaling",
      "the k-IOS paper's moving pairs (data), the same kind made by the program, and bumpy tori "
      "of "
-     "1k to 80k triangles: gap 0.1, 1e-3, touching",
+     "1k to 80k triangles (1M by --max-triangles): gap 0.1, 1e-3, touching",
      runTori, 100},
     {"robots", "ur5 generated parts scenes",
      "two arms side by side, all pairs of links: UR5 (data), generated, machine parts; "
@@ -79,7 +79,8 @@ constexpr Scenario kScenarios[] = {
      runMbm, 0},
 #endif
     {"build", "models refit",
-     "endModel, the same mesh again, memory: tori of 1k to 80k triangles, and "
+     "endModel, the same mesh again, memory: tori of 1k to 80k triangles (1M by --max-triangles), "
+     "and "
      "the UR5 (data); refits of tori that sway",
      runBuild, 8},
     {"error", "",
@@ -243,6 +244,10 @@ int run(int argc, char** argv) {
   app.add_option("--oracle", oracle, "number of frames judged by the oracle, or 'all'")
       ->check(CLI::Range(1, 1000000000) | CLI::IsMember({"all"}))
       ->capture_default_str();
+  app.add_option("--max-triangles", options.max_triangles,
+                 "largest meshes of 'tori', 'build' and 'rays', to 1000000")
+      ->check(CLI::Range(1, 1000000000))
+      ->capture_default_str();
   app.add_option("--robot", robot,
                  "folder of binary STL and OBJ files, by name the links of a robot for 'robots'")
       ->check(CLI::ExistingDirectory);
@@ -279,7 +284,7 @@ int run(int argc, char** argv) {
   }
   if (!robot.empty()) options.robot = robot;
   Report report(json.empty() ? std::nullopt : std::optional<std::filesystem::path>(json),
-                libraries.empty() ? printTable : printCompared);
+                options.seed, libraries.empty() ? printTable : printCompared);
   int slower = 0;
   if (!libraries.empty()) {
     slower = runCompared(wanted, options, report);

@@ -16,8 +16,8 @@
 
 namespace kios::bench {
 
-/// A set over a volume, by the calls that answer for it and the volume's traversal nodes; void as
-/// that of collisions is what FCL has not. Our volume under our own calls counts volumes and pairs
+/// A set over a volume, by the calls that answer for it and the volume's traversal nodes; void
+/// where FCL has none. Our volume under our own calls counts volumes and pairs
 /// of leaves (of up to eight triangles each) in its prepared trees.
 template <typename BV, typename Calls, typename DistanceNode, typename CollisionNode>
 class MeshSetOf final : public MeshSet {
@@ -30,7 +30,8 @@ class MeshSetOf final : public MeshSet {
   explicit MeshSetOf(MakeFitter make_fitter) : make_fitter_(make_fitter) {}
 
   bool serves(Query query) const override {
-    return kCollision || (query != Query::kCollide && query != Query::kContacts);
+    if (query == Query::kBuild) return true;
+    return query == Query::kCollide || query == Query::kContacts ? kCollision : kDistance;
   }
 
   void build(const std::vector<scenes::Mesh>& meshes) const override {
@@ -100,7 +101,9 @@ class MeshSetOf final : public MeshSet {
         }
       } else {
         fcl::DistanceResultd result;
-        count<DistanceNode>(question, fcl::DistanceRequestd(), result, bvs, leaves, exact);
+        if constexpr (kDistance) {
+          count<DistanceNode>(question, fcl::DistanceRequestd(), result, bvs, leaves, exact);
+        }
       }
     }
     const auto of_frame = [frames](long long sum) {
@@ -123,6 +126,7 @@ class MeshSetOf final : public MeshSet {
 
  private:
   static constexpr bool kPrepared = std::is_same_v<Calls, KiosCalls>;
+  static constexpr bool kDistance = kPrepared || !std::is_void_v<DistanceNode>;
   static constexpr bool kCollision = kPrepared || !std::is_void_v<CollisionNode>;
 
   // A body and its objects as either argument: two bodies of one shape share its model.
@@ -136,7 +140,7 @@ class MeshSetOf final : public MeshSet {
     const fcl::DistanceRequestd request;
     fcl::DistanceResultd result;
     result.min_distance = threshold;
-    Calls::distance(&a, &b, request, result);
+    if constexpr (kDistance) Calls::distance(&a, &b, request, result);
     return std::min(result.min_distance, threshold);
   }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <stdexcept>
 
+#include <fcl/math/bv/OBB.h>
 #include <fcl/math/bv/OBBRSS.h>
 #include <fcl/math/bv/RSS.h>
 #include <fcl/math/bv/kIOS.h>
@@ -48,6 +49,9 @@ constexpr Entry kVolumes[] = {
        return make<fcl::OBBRSSd, FclCalls, nodes::MeshDistanceTraversalNodeOBBRSSd,
                    nodes::MeshCollisionTraversalNodeOBBRSSd>();
      }},
+    // FCL has no distance between OBBs.
+    {"fcl_obb",
+     [] { return make<fcl::OBBd, FclCalls, void, nodes::MeshCollisionTraversalNodeOBBd>(); }},
     // FCL's binary trees by their nodes: the tuned fit, the paper's Method II as published, RSS.
     {kOurTree, [] { return libraryOf(kOurTree).tree_set(); }, false},
     {"kios_method_ii",

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -21,7 +22,8 @@ struct Options {
   std::vector<std::string> bvs;               // competitors, in the order of rows
   int frames = 0;                             // per scene; 0 = the scenario's own number
   int repeats = 5;
-  int oracle_frames = 300;  // frames judged by the oracle, evenly chosen; 0 = all
+  int oracle_frames = 300;    // frames judged by the oracle, evenly chosen; 0 = all
+  int max_triangles = 80000;  // of meshes of several sizes
   std::uint64_t seed = 1;
   std::optional<std::filesystem::path> robot;  // folder of meshes, for 'robots'
   bool quick = false;  // few frames and small meshes: a smoke test, not a measurement
@@ -30,6 +32,13 @@ struct Options {
 /// Returns whether the command line asks for this part of the scenario, or for all.
 inline bool wanted(const Options& options, const std::string& part) {
   return options.part.empty() || options.part == part;
+}
+
+/// Returns those of the sizes of meshes, in ascending order, that the command line allows.
+inline std::vector<int> allowed(const Options& options, std::vector<int> sizes) {
+  const int most = options.quick ? 1000 : options.max_triangles;
+  sizes.erase(std::upper_bound(sizes.begin(), sizes.end(), most), sizes.end());
+  return sizes;
 }
 
 /// Returns the data folder that the command line names, else the one that is found.

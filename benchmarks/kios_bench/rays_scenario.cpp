@@ -193,8 +193,7 @@ void castAt(const std::string& name, scenes::Mesh mesh, const Options& options, 
 }  // namespace
 
 void runRays(const Options& options, Report& report) {
-  for (const int size : {1000, 20000, 80000}) {
-    if (options.quick && size > 1000) break;
+  for (const int size : allowed(options, {1000, 20000, 80000, 320000, 1000000})) {
     castAt("rays/" + std::to_string(size), scenes::bumpyTorus(size), options, report);
   }
   // 1,600 triangles, 600 times as long as wide, enlarged to the torus's size.

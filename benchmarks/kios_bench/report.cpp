@@ -9,7 +9,10 @@
 #include <iterator>
 #include <stdexcept>
 
+#include <fcl_kios/model.h>
 #include <nlohmann/json.hpp>
+
+#include "library.h"
 
 namespace kios::bench {
 namespace {
@@ -32,6 +35,13 @@ Maybe pairMicroseconds(const Row& row) {
   if (!row.pairs.total) return std::nullopt;
   return row.times.median_us * static_cast<double>(row.frames) /
          static_cast<double>(*row.pairs.total);
+}
+
+// Pairs of which the narrow phase wasn't asked.
+Maybe skippedPairs(const Row& row) {
+  if (!row.pairs.total || !row.pairs.narrow_queries) return std::nullopt;
+  return static_cast<double>(*row.pairs.total) -
+         *row.pairs.narrow_queries * static_cast<double>(row.frames);
 }
 
 /// A number of a row, in JSON, in tables, or both.
@@ -58,6 +68,7 @@ constexpr Field kFields[] = {
     {"leaf_tests", "leaves", "%.1f", [](const Row& row) { return row.tests.leaves; }},
     {nullptr, "err/extent", "%.1e", scaledError},
     {"max_abs_error", nullptr, nullptr, [](const Row& row) { return row.errors.max_abs; }},
+    {"max_rel_error", nullptr, nullptr, [](const Row& row) { return row.errors.max_rel; }},
     {"mean_rel_error", "mean rel", "%.2e", [](const Row& row) { return row.errors.mean_rel; }},
     {"bracket_width", "width", "%.2e", [](const Row& row) { return row.errors.bracket_width; }},
     {"bracket_ratio", "up/low", "%.3f", [](const Row& row) { return row.errors.bracket_ratio; }},
@@ -77,6 +88,7 @@ constexpr Field kFields[] = {
     {"floats_per_bv", "floats", "%.2f", [](const Row& row) { return row.volumes.floats_per_bv; }},
     {"tightness", "tightness", "%.3f", [](const Row& row) { return row.volumes.tightness; }},
     {"bodies", "bodies", "%.0f", [](const Row& row) { return number(row.bodies); }, true},
+    {"skipped_pairs", nullptr, nullptr, skippedPairs, true},
     {"total_pairs", nullptr, nullptr, [](const Row& row) { return number(row.pairs.total); }, true},
     {"narrow_queries", "searches", "%.2f", [](const Row& row) { return row.pairs.narrow_queries; }},
     {"solved", "solved", "%.0f", [](const Row& row) { return number(row.plans.solved); }, true},
@@ -132,7 +144,7 @@ void append(std::vector<Row> rows, std::vector<Row>& all) {
   std::move(rows.begin(), rows.end(), std::back_inserter(all));
 }
 
-std::string toJson(const Row& row) {
+std::string toJson(const Row& row, std::uint64_t seed) {
   Json json = {{"scenario", row.scenario},
                {"query", row.query},
                {"bv", row.bv},
@@ -146,6 +158,8 @@ std::string toJson(const Row& row) {
                        : field.is_count ? Json(static_cast<std::size_t>(*value))
                                         : Json(*value);
   }
+  json["simd_target"] = row.bv == kOurs ? Json(simdTarget()) : Json(nullptr);
+  json["seed"] = seed;
   return json.dump();
 }
 
@@ -174,7 +188,9 @@ void printTable(const std::vector<Row>& rows) {
   std::printf("\n");
 }
 
-Report::Report(const std::optional<std::filesystem::path>& json_file, Print print) : print_(print) {
+Report::Report(const std::optional<std::filesystem::path>& json_file, std::uint64_t seed,
+               Print print)
+    : seed_(seed), print_(print) {
   if (!json_file) return;
   json_.open(*json_file);
   if (!json_) throw std::runtime_error(json_file->string() + ": cannot be written");
@@ -184,7 +200,7 @@ void Report::add(const std::vector<Row>& rows) {
   print_(rows);
   std::fflush(stdout);
   for (const Row& row : rows) {
-    if (json_.is_open()) json_ << toJson(row) << '\n';
+    if (json_.is_open()) json_ << toJson(row, seed_) << '\n';
     rows_.push_back(row);
   }
   json_.flush();

@@ -27,7 +27,7 @@ struct Asked {
 
 /// Answers against the oracle's.
 struct Errors {
-  Maybe max_abs;
+  Maybe max_abs, max_rel;
   Maybe mean_rel;                          ///< over frames without contact
   Maybe bracket_width;                     ///< mean of distance - proven lower bound
   Maybe bracket_ratio, max_bracket_ratio;  ///< of upper / lower bound: median, largest
@@ -104,8 +104,8 @@ std::string cell(const Maybe& value, const char* format);
 /// Returns a time for readers: in us, or in ms where those have five digits.
 std::string timeText(double us);
 
-/// Returns the row as one line of JSON. Numbers that are not finite become null.
-std::string toJson(const Row& row);
+/// Returns the row as one line of JSON. Numbers that are unknown or not finite are null.
+std::string toJson(const Row& row, std::uint64_t seed);
 
 /// Prints rows as an aligned table, without columns that tell nothing of them.
 void printTable(const std::vector<Row>& rows);
@@ -117,7 +117,8 @@ class Report {
   using Print = void (*)(const std::vector<Row>& rows);
 
   /// Throws std::runtime_error if the file cannot be written.
-  explicit Report(const std::optional<std::filesystem::path>& json_file, Print print = printTable);
+  Report(const std::optional<std::filesystem::path>& json_file, std::uint64_t seed,
+         Print print = printTable);
 
   /// Adds the rows of one scene and prints them.
   void add(const std::vector<Row>& rows);
@@ -125,6 +126,7 @@ class Report {
   const std::vector<Row>& rows() const { return rows_; }
 
  private:
+  std::uint64_t seed_;
   Print print_;
   std::vector<Row> rows_;
   std::ofstream json_;

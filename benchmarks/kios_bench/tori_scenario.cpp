@@ -40,8 +40,7 @@ constexpr double kApart = 4;  // clears both tori at any orientation
 
 void reportScaling(const Options& options, Report& report) {
   const int frames = options.frames > 0 ? options.frames : (options.quick ? 4 : 32);
-  for (const int size : {1000, 5000, 20000, 80000}) {
-    if (options.quick && size > 1000) break;
+  for (const int size : allowed(options, {1000, 5000, 20000, 80000, 320000, 1000000})) {
     const scenes::Mesh torus = scenes::bumpyTorus(size);
     const std::string scenario = "scaling/" + std::to_string(size);
     Options affordable = options;

@@ -43,7 +43,8 @@ RUNS = {  # run: its file in docs/measured, and what kios_bench is asked
 }
 
 # What no page has isn't kept.
-UNKEPT = ("min_us", "ratio_to_fcl_obbrss", "bracket_width")
+UNKEPT = ("min_us", "ratio_to_fcl_obbrss", "max_rel_error", "bracket_width", "skipped_pairs",
+          "simd_target", "seed")
 
 
 def header(root, scenario, command):
