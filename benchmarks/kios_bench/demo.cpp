@@ -1,22 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What scripts/demo runs: three scenes of real work on one screen. It links no more of kios_bench
-// than they need, so that a newcomer waits less.
-#include <algorithm>
-#include <cmath>
+// What scripts/demo runs: three scenes of real work on one screen and a page. It links no more of
+// kios_bench than they need, so that a newcomer waits less.
 #include <cstdio>
 #include <exception>
 #include <string>
-#include <vector>
 
 #include "contest.h"
-#include "least.h"
 #include "library.h"
 #include "mesh_set_of.h"
 #include "scenes/cad_parts.h"
 #include "scenes/placement.h"
 #include "scenes/worlds.h"
+#include "summary.h"
 
 // Our library makes meshes alone here.
 extern "C" const kios::bench::Library kios_bench_library = {
@@ -91,57 +88,7 @@ void printLine(const std::string& what, const std::vector<Row>& rows) {
   std::fflush(stdout);
 }
 
-/// Says how many times as fast ours is as FCL's fastest volume: in the geometric mean and at least.
-void printSpeed(const std::vector<Row>& rows, const std::string& query, const char* what) {
-  std::vector<Standing> standings = byRatio(rows);
-  standings.erase(std::remove_if(standings.begin(), standings.end(),
-                                 [&](const Standing& s) { return s.ours.query != query; }),
-                  standings.end());
-  double logarithms = 0;
-  for (const Standing& standing : standings) logarithms += std::log(standing.ratio);
-  std::printf(
-      "%s: %.1f times as fast as FCL's fastest volume in the mean of %zu scenes, %.1f at least "
-      "(%s).\n",
-      what, std::exp(logarithms / static_cast<double>(standings.size())), standings.size(),
-      standings.at(0).ratio, standings.at(0).ours.scenario.c_str());
-}
-
-/// Says how the rows fell that the oracle judged. Returns how many verdicts are wrong.
-std::size_t printErrors(const std::vector<Row>& rows) {
-  std::size_t judged = 0, wrong = 0;
-  double error = 0;
-  for (const Row& row : rows) {
-    if (row.bv != kOurs || !row.errors.wrong) continue;
-    ++judged;
-    wrong += *row.errors.wrong;
-    error = std::max(error, row.errors.max_abs.value_or(0) / row.extent);
-  }
-  std::printf(
-      "Answers: %zu wrong in %zu rows that an oracle judged; largest error of a distance %.1e of "
-      "the mesh's size.\n",
-      wrong, judged, error);
-  return wrong;
-}
-
-void printBuilds(const std::vector<Row>& rows) {
-  const auto mean = [&rows](const std::string& bv, Maybe Volumes::*value) {
-    double sum = 0;
-    int count = 0;
-    for (const Row& row : rows) {
-      if (row.query != "build" || row.bv != bv) continue;
-      sum += (row.volumes.*value).value_or(0);
-      ++count;
-    }
-    return sum / count;
-  };
-  constexpr auto kBytes = &Volumes::bytes_per_triangle, kUs = &Volumes::build_us_per_triangle;
-  std::printf("Memory: %.0f bytes a triangle, OBBRSS %.0f.\n", mean(kOurs, kBytes),
-              mean("fcl_obbrss", kBytes));
-  std::printf("Building: %.2f us a triangle, OBBRSS %.2f.\n", mean(kOurs, kUs),
-              mean("fcl_obbrss", kUs));
-}
-
-int run() {
+int run(const std::string& page) {
   Options options;
   options.bvs = kVolumes;
   options.repeats = 3;
@@ -166,20 +113,23 @@ int run() {
     append(built, rows);
   }
   std::printf("\n");
-  printSpeed(rows, "distance", "Exact distance");
-  printSpeed(rows, "collide", "First contact");
-  printBuilds(rows);
-  return printErrors(rows) == 0 ? 0 : 1;
+  for (const std::string& sentence : inWords(rows)) std::printf("%s.\n", sentence.c_str());
+  writePage(rows, page);
+  for (const Row& row : rows) {
+    if (row.bv == kOurs && row.errors.wrong.value_or(0) > 0) return 1;
+  }
+  return 0;
 }
 
 }  // namespace
 }  // namespace kios::bench
 
-int main() {
+int main(int argc, char** argv) {
   try {
-    return kios::bench::run();
+    if (argc == 2) return kios::bench::run(argv[1]);
+    std::fprintf(stderr, "usage: kios_demo PAGE.html\n");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "kios_demo: %s\n", error.what());
-    return 2;
   }
+  return 2;
 }
