@@ -191,25 +191,6 @@ def trimesh_in_collision(repeats):
     return a / 100, b and b / 100, ratio
 
 
-@row
-def signed_distances(repeats):
-    """Mesh.signed_distance() of 100,000 points about a solid of 20,000 triangles, on one thread;
-    beside it Open3D's RaycastingScene"""
-    v, f = part()
-    points = np.random.default_rng(6).uniform(-1.6, 1.6, (100_000, 3))
-    solid = fcl_kios.Mesh(v, f, solid=True)
-    mine = lambda: solid.signed_distance(points, threads=1)
-    try:
-        import open3d
-    except ImportError:
-        return compare(mine, None, repeats)
-    scene = open3d.t.geometry.RaycastingScene()
-    scene.add_triangles(v.astype("f"), f.astype("u4"))
-    other = lambda: scene.compute_signed_distance(points.astype("f"), nthreads=1).numpy()
-    assert np.allclose(np.abs(mine()), np.abs(other()), atol=1e-4)
-    return compare(mine, other, repeats)
-
-
 def gripper():
     """5,000 triangles, and poses of which some touch the object."""
     v, f = part(5000)
