@@ -32,37 +32,20 @@ auto answer(const PosedPair& pair, const Request& request, Result& result, const
   return valueOf(result);
 }
 
-std::size_t collideObjects(const Object* a, const Object* b, const CollisionRequest& request,
-                           CollisionResult& result) {
-  const auto ask_fcl = [&](CollisionResult& r) {
-    return implementation->start.fcl.collide_objects(a, b, request, r);
+template <auto kCall, typename Request, typename Result>
+auto askObjects(const Object* a, const Object* b, const Request& request, Result& result) {
+  const auto ask_fcl = [&](Result& r) {
+    return (implementation->start.fcl.*kCall)(a, b, request, r);
   };
   if (!isServed(a, b)) return ask_fcl(result);
   return answer(pairOf(*a, *b), request, result, ask_fcl);
 }
 
-std::size_t collide(const Geometry* a, const Pose& X_WA, const Geometry* b, const Pose& X_WB,
-                    const CollisionRequest& request, CollisionResult& result) {
-  const auto ask_fcl = [&](CollisionResult& r) {
-    return implementation->start.fcl.collide(a, X_WA, b, X_WB, request, r);
-  };
-  if (!isServed(a, b)) return ask_fcl(result);
-  return answer({a, X_WA, b, X_WB}, request, result, ask_fcl);
-}
-
-double distanceObjects(const Object* a, const Object* b, const DistanceRequest& request,
-                       DistanceResult& result) {
-  const auto ask_fcl = [&](DistanceResult& r) {
-    return implementation->start.fcl.distance_objects(a, b, request, r);
-  };
-  if (!isServed(a, b)) return ask_fcl(result);
-  return answer(pairOf(*a, *b), request, result, ask_fcl);
-}
-
-double distance(const Geometry* a, const Pose& X_WA, const Geometry* b, const Pose& X_WB,
-                const DistanceRequest& request, DistanceResult& result) {
-  const auto ask_fcl = [&](DistanceResult& r) {
-    return implementation->start.fcl.distance(a, X_WA, b, X_WB, request, r);
+template <auto kCall, typename Request, typename Result>
+auto ask(const Geometry* a, const Pose& X_WA, const Geometry* b, const Pose& X_WB,
+         const Request& request, Result& result) {
+  const auto ask_fcl = [&](Result& r) {
+    return (implementation->start.fcl.*kCall)(a, X_WA, b, X_WB, request, r);
   };
   if (!isServed(a, b)) return ask_fcl(result);
   return answer({a, X_WA, b, X_WB}, request, result, ask_fcl);
@@ -74,7 +57,10 @@ struct ReportAtExit {
   }
 } report_at_exit;
 
-constexpr Calls kCalls = {&collideObjects, &collide, &distanceObjects, &distance};
+constexpr Calls kCalls = {&askObjects<&Calls::collide_objects, CollisionRequest, CollisionResult>,
+                          &ask<&Calls::collide, CollisionRequest, CollisionResult>,
+                          &askObjects<&Calls::distance_objects, DistanceRequest, DistanceResult>,
+                          &ask<&Calls::distance, DistanceRequest, DistanceResult>};
 constexpr Forks kForks = {[] { implementation->copies.beforeFork(); },
                           [] { implementation->copies.afterFork(); },
                           [] { implementation->copies.afterForkInChild(); }};

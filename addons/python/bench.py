@@ -142,85 +142,13 @@ def trimesh_min_distance(repeats):
     return compare(mine, other, repeats)
 
 
-def boxes_in(module, n=4000):
-    """A manager of boxes, a box far from all, and what asks whether they touch."""
-    random = np.random.default_rng(5)
-    objects = [module.CollisionObject(module.Box(0.5, 0.5, 0.5), module.Transform(np.eye(3), p))
-               for p in random.uniform(-50, 50, (n, 3))]
-    manager = module.DynamicAABBTreeCollisionManager()
-    manager.registerObjects(objects)
-    manager.setup()
-    far = module.CollisionObject(module.Box(1, 1, 1), module.Transform(np.eye(3), np.full(3, 200.0)))
-    data = module.CollisionData()
-
-    def ask():
-        for _ in range(100):
-            manager.collide(far, data, module.defaultCollisionCallback)
-
-    ask.keep = objects
-    return ask
-
-
-@row
-def manager_of_4000_boxes(repeats):
-    """manager.collide(box, data, defaultCollisionCallback) of a box far from 4,000"""
-    a, b, ratio = compare(boxes_in(ours), boxes_in(theirs) if theirs else None, 5 * repeats)
-    return a / 100, b and b / 100, ratio
-
-
-@row
-def trimesh_in_collision(repeats):
-    """trimesh's CollisionManager.in_collision_internal(), ten boxes that are apart"""
-    if not trimesh:
-        return None
-    box = trimesh.Trimesh(*shapes.box(), process=False)
-
-    def ask(module):
-        trimesh.collision.fcl = module
-        manager = trimesh.collision.CollisionManager()
-        for i in range(10):
-            manager.add_object(str(i), box, shapes.translation(3 * i))
-
-        def run():
-            trimesh.collision.fcl = module
-            return [manager.in_collision_internal() for _ in range(100)]
-
-        return run
-
-    a, b, ratio = compare(ask(ours), ask(theirs) if theirs else None, 5 * repeats)
-    return a / 100, b and b / 100, ratio
-
-
-@row
-def signed_distances(repeats):
-    """Mesh.signed_distance() of 100,000 points about a solid of 20,000 triangles, on one thread;
-    beside it Open3D's RaycastingScene"""
-    v, f = part()
-    points = np.random.default_rng(6).uniform(-1.6, 1.6, (100_000, 3))
-    solid = fcl_kios.Mesh(v, f, solid=True)
-    mine = lambda: solid.signed_distance(points, threads=1)
-    try:
-        import open3d
-    except ImportError:
-        return compare(mine, None, repeats)
-    scene = open3d.t.geometry.RaycastingScene()
-    scene.add_triangles(v.astype("f"), f.astype("u4"))
-    other = lambda: scene.compute_signed_distance(points.astype("f"), nthreads=1).numpy()
-    assert np.allclose(np.abs(mine()), np.abs(other()), atol=1e-4)
-    return compare(mine, other, repeats)
-
-
-def gripper():
-    """5,000 triangles, and poses of which some touch the object."""
-    v, f = part(5000)
-    return v * [0.3, 0.3, 0.6], f, shapes.random_poses(10_000, 1.8, np.random.default_rng(3))
-
-
 @row
 def poses_of_a_gripper(repeats):
     """10,000 poses of a gripper (5,000 triangles) against an object (20,000): Mesh.collides() beside
     trimesh's loop of set_transform() and in_collision_internal()"""
-    v, f, poses = gripper()
+    v, f = part(5000)
+    v = v * [0.3, 0.3, 0.6]
+    poses = shapes.random_poses(10_000, 1.8, np.random.default_rng(3))  # at some they touch
     hand, thing = fcl_kios.Mesh(v, f), fcl_kios.Mesh(*part())
     mine = lambda: thing.collides(hand, poses)
     hits = mine()
@@ -244,16 +172,6 @@ def poses_of_a_gripper(repeats):
     assert np.array_equal(loop(), hits[::every])
     a, b, ratio = compare(mine, loop, repeats)
     return a, b * every, ratio * every
-
-
-@row
-def poses_on_two_cores(repeats):
-    """the same on two cores; beside it on one"""
-    v, f, poses = gripper()
-    hand, thing = fcl_kios.Mesh(v, f), fcl_kios.Mesh(*part())
-    thing.collides(hand, poses)
-    return compare(lambda: thing.collides(hand, poses, threads=2),
-                   lambda: thing.collides(hand, poses, threads=1), repeats)
 
 
 @row
@@ -360,8 +278,6 @@ def main():
     print("| what | fcl_kios | beside it | ratio |\n| --- | --: | --: | --: |")
     measured = []
     for name in arguments.rows or ROWS:
-        if arguments.cpu and name == "poses_on_two_cores":
-            continue
         found = ROWS[name](arguments.repeats)
         if found is None:
             continue

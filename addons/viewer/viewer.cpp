@@ -51,7 +51,7 @@ std::string page(const PageText& text, std::string content) {
   std::string html = kFrame;
   replace(html, "@TITLE@", text.title);
   replace(html, "@STYLE@", kStyle);
-  replace(html, "@BODY@", text.body);
+  replace(html, "@CONTROLS@", text.controls);
   replace(html, "@SCRIPT@", std::string(kRenderer) + kViewer + text.script);
   replace(html, "@SCENE@", content);
   return html;

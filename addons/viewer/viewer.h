@@ -10,9 +10,9 @@
 
 namespace kios::viewer {
 
-/// Holds what is a page's own: its title, the HTML of its body, its script.
+/// Holds what is a page's own: its title, the HTML of its controls, its script.
 struct PageText {
-  const char *title, *body, *script;
+  const char *title, *controls, *script;
 };
 /// That of the program that is linked (kios_page in CMakeLists.txt).
 extern const PageText kPageText;

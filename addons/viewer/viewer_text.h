@@ -4,7 +4,7 @@
 
 namespace kios::viewer {
 
-// The files beside this one. The frame has @TITLE@, @STYLE@, @BODY@, @SCENE@ and @SCRIPT@ to be
+// The files beside this one. The frame has @TITLE@, @STYLE@, @CONTROLS@, @SCENE@ and @SCRIPT@ to be
 // filled in.
 extern const char* const kFrame;
 extern const char* const kStyle;

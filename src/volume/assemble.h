@@ -13,7 +13,7 @@
 namespace kios {
 
 /// The cotangent of a cap's half opening angle over the rim of its content, 30 degrees: paper,
-/// III-B.2; build/sphere_centers.h draws it.
+/// III-B.2; build/lane_fit.h draws it.
 inline constexpr float kCot30 = 1.7320508F;
 
 /// The exponent of the units in which a node of this radius stores its caps: 0 wherever floats and

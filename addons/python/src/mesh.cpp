@@ -14,7 +14,6 @@
 #include "fcl_kios/storage.h"
 #include "mesh_batches.h"
 #include "objects.h"
-#include "point_batches.h"
 
 namespace kios::python {
 namespace {
@@ -101,25 +100,10 @@ const InsideGrid* Mesh::gridFor(std::size_t n, const Mesh& other) const {
 
 // Python's fcl_kios.Mesh, which derives from it, has the signatures and docstrings.
 void bindMesh(py::module_& m) {
-  py::class_<Mesh, std::shared_ptr<Mesh>>(m, "_Mesh")
-      .def(py::init(&built))
+  MeshClass c(m, "_Mesh");
+  c.def(py::init(&built))
       .def(py::init(&loaded))
       .def("_stored", &stored)
-      .def("_collides", &collides)
-      .def("_distance", &distance)
-      .def("_bracket", &bracket)
-      .def("_closer_than", &closerThan)
-      .def("_contacts", &contacts)
-      .def("_penetration", &penetration)
-      .def("_local_depth", &localDepth)
-      .def("_deeper_than", &deeperThan)
-      .def("_contains", &contains)
-      .def("_nearest", &nearest)
-      .def("_signed_distance", &signedDistance)
-      .def("_rays", &rays)
-      .def("_rays_all", &raysAll)
-      .def("_rays_blocked", &raysBlocked)
-      .def("_self_intersections", &selfIntersectionsOf)
       .def("_nbytes", &bytesOf)
       .def("_is_solid", &Mesh::isSolid)
       .def("_vertices",
@@ -131,14 +115,10 @@ void bindMesh(py::module_& m) {
         const Modeld& model = self.cast<const Mesh&>().model();
         return view<std::int64_t>(model.tri_indices, model.num_tris, self);
       });
-  py::class_<Winding>(m, "_WindingTree")
-      .def(py::init([](const Mesh& mesh) {
-        const WithoutGil released;
-        return std::make_unique<Winding>(mesh);
-      }))
-      .def("_at", &windingNumbers)
-      .def("_nbytes", [](const Winding& self) { return self.tree.bytes(); });
-  m.def("_repair", &repaired);
+  bindPairBatches(c);
+  bindPointBatches(m, c);
+  bindRayBatches(c);
+  bindRepair(m, c);
 }
 
 }  // namespace kios::python

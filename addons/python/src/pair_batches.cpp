@@ -47,7 +47,7 @@ struct Other {
   std::optional<Reading> reading;
 };
 
-/// The poses of a batch, and whose they are.
+/// The poses of a batch, and whose they are: of a list each has an equal share, in its order.
 struct Asked {
   /// `meshes` names the query that needs them.
   Asked(py::handle other, py::handle X_AB, const char* meshes = nullptr) : poses(X_AB, "X_AB") {
@@ -103,8 +103,6 @@ double nonNegative(double value, const char* name) {
   if (value >= 0) return value;
   throw std::invalid_argument(std::string("fcl_kios: ") + name + " must be at least 0.");
 }
-
-}  // namespace
 
 py::object collides(const Mesh& self, py::handle other, py::handle X_AB,
                     const BatchOptions& options) {
@@ -185,6 +183,7 @@ py::object closerThan(const Mesh& self, py::handle other, double t, py::handle X
   });
 }
 
+/// By pose: its number, points, normals, depths, triangles of both.
 py::object contacts(const Mesh& self, py::handle other, py::handle X_AB, std::size_t most,
                     const BatchOptions& options) {
   const Modeld& a = self.model();
@@ -226,6 +225,7 @@ py::object penetration(const Mesh& self, py::handle other, py::handle X_AB, doub
       .each(options, ask, &Result::lower, &Result::upper, &Result::translation, &Result::point);
 }
 
+/// Bounds, points, nearest points, whose surface the points are of, whether the bracket closed.
 py::object localDepth(const Mesh& self, py::handle other, py::handle X_AB, double tolerance,
                       double rel_err, double threshold, long long max_pieces,
                       const BatchOptions& options) {
@@ -251,6 +251,19 @@ py::object deeperThan(const Mesh& self, py::handle other, double t, py::handle X
       .each(options, [&](const Other& b, const fcl::Transform3d& X) {
         return kios::deeperThan(a, identity(), *b.model, X, t, max_pieces);
       });
+}
+
+}  // namespace
+
+void bindPairBatches(MeshClass& c) {
+  c.def("_collides", &collides)
+      .def("_distance", &distance)
+      .def("_bracket", &bracket)
+      .def("_closer_than", &closerThan)
+      .def("_contacts", &contacts)
+      .def("_penetration", &penetration)
+      .def("_local_depth", &localDepth)
+      .def("_deeper_than", &deeperThan);
 }
 
 }  // namespace kios::python

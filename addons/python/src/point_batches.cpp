@@ -1,14 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "point_batches.h"
+#include "fcl_kios/points.h"
+#include "mesh_batches.h"
+#include "without_gil.h"
 
 namespace kios::python {
 namespace {
+
+/// fcl_kios.WindingTree, which keeps the model.
+struct Winding {
+  explicit Winding(const Mesh& mesh) : model(mesh.share()), tree(*model) {}
+
+  std::shared_ptr<const Modeld> model;
+  WindingTree tree;
+};
 
 constexpr double kLargest = 0x1p1000;  ///< coordinate that queries take
 
@@ -59,8 +70,7 @@ struct PointQuery {
   PointRequest request;
 };
 
-}  // namespace
-
+/// Distances, points and triangles.
 py::object nearest(const Mesh& self, py::handle points, py::handle X_WM, double within,
                    const BatchOptions& options) {
   const Modeld& model = self.model();
@@ -78,6 +88,7 @@ py::object nearest(const Mesh& self, py::handle points, py::handle X_WM, double 
   return py::make_tuple(column(distances, single), column(at, single), column(triangles, single));
 }
 
+/// `winding`: nullptr for solids.
 py::object signedDistance(const Mesh& self, py::handle points, py::handle X_WM, double within,
                           const Winding* winding, const BatchOptions& options) {
   const Modeld& model = self.model();
@@ -98,6 +109,19 @@ py::object windingNumbers(const Winding& self, py::handle points, double error,
   return column(runEach(asked.size, options, "points",
                         [&](std::size_t i) { return self.tree.at(asked[i], error); }),
                 asked.single);
+}
+
+}  // namespace
+
+void bindPointBatches(py::module_& m, MeshClass& c) {
+  c.def("_nearest", &nearest).def("_signed_distance", &signedDistance);
+  py::class_<Winding>(m, "_WindingTree")
+      .def(py::init([](const Mesh& mesh) {
+        const WithoutGil released;
+        return std::make_unique<Winding>(mesh);
+      }))
+      .def("_at", &windingNumbers)
+      .def("_nbytes", [](const Winding& self) { return self.tree.bytes(); });
 }
 
 }  // namespace kios::python

@@ -24,7 +24,7 @@ struct Places {
   Poses poses;
 };
 
-/// Rays from one origin, or as many as there are directions.
+/// Rays from one origin, or as many as there are directions; from and to are lengths.
 struct Rays {
   Rays(py::handle o, py::handle d, py::handle X_WM, double from, double to)
       : origins(o, "origins"),
@@ -65,8 +65,6 @@ Eigen::Vector3d normalOf(const Modeld& mesh, int triangle) {
   return length > 0 ? Eigen::Vector3d(n / length) : Eigen::Vector3d::Constant(kNaN);
 }
 
-}  // namespace
-
 py::object contains(const Mesh& self, py::handle points, py::handle X_WM,
                     const BatchOptions& options) {
   const Modeld& model = self.model();
@@ -91,6 +89,7 @@ py::object rays(const Mesh& self, py::handle origins, py::handle directions, py:
   return columns(hits, asked.directions.single, &RayHitd::triangle, &RayHitd::t, &RayHitd::point);
 }
 
+/// By ray: its number, triangles, distances, points, normals.
 py::object raysAll(const Mesh& self, py::handle origins, py::handle directions, py::handle X_WM,
                    double t_min, double t_max, std::size_t most, const BatchOptions& options) {
   const Modeld& model = self.model();
@@ -115,6 +114,15 @@ py::object raysBlocked(const Mesh& self, py::handle origins, py::handle directio
   return column(runEach(asked.size(), options, "directions",
                         [&](std::size_t i) { return anyHit(model, asked.places[i], asked[i]); }),
                 asked.directions.single);
+}
+
+}  // namespace
+
+void bindRayBatches(MeshClass& c) {
+  c.def("_contains", &contains)
+      .def("_rays", &rays)
+      .def("_rays_all", &raysAll)
+      .def("_rays_blocked", &raysBlocked);
 }
 
 }  // namespace kios::python

@@ -12,7 +12,9 @@
 #include "without_gil.h"
 
 namespace kios::python {
+namespace {
 
+/// (n, 2) triangles, and n numbers of Meeting.
 py::object selfIntersectionsOf(const Mesh& self, std::size_t most) {
   const auto found = std::make_shared<std::vector<SelfIntersection>>();
   runInterruptibly(
@@ -28,6 +30,7 @@ py::object selfIntersectionsOf(const Mesh& self, std::size_t most) {
   return py::make_tuple(triangles, kinds);
 }
 
+/// Vertices, faces, vertex_of, triangle_of, a summary, and whether it bounds a solid.
 py::object repaired(py::handle vertices, py::handle faces, double relative_weld,
                     double absolute_weld, int max_hole_edges, double max_hole_perimeter) {
   auto points = readVertices(vertices, "vertices");
@@ -44,6 +47,13 @@ py::object repaired(py::handle vertices, py::handle faces, double relative_weld,
   return py::make_tuple(toPoints(result->vertices), toTriangles(result->triangles),
                         ids(result->vertex_of), ids(result->triangle_of), summaryOf(*result),
                         result->closedness.isSolid());
+}
+
+}  // namespace
+
+void bindRepair(py::module_& m, MeshClass& c) {
+  c.def("_self_intersections", &selfIntersectionsOf);
+  m.def("_repair", &repaired);
 }
 
 }  // namespace kios::python

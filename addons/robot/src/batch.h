@@ -57,10 +57,4 @@ void forAll(long long count, int threads, const Work& work) {
   forAll(count, threads, std::max(1LL, std::min(64LL, count / (8LL * threads))), work);
 }
 
-/// Does so with work(i) that takes long.
-template <typename Work>
-void forEachAlone(long long count, int threads, const Work& work) {
-  forAll(count, threads, 1, [&](long long i, int /*thread*/) { work(i); });
-}
-
 }  // namespace kios::robot

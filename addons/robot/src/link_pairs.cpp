@@ -52,7 +52,7 @@ std::vector<LinkPair> Robot::linkPairs(const PairRequest& options) const {
   std::size_t settled = 0;
   const auto count = static_cast<long long>(tasks.size());
   const auto forOpen = [&](const auto& work) {
-    robot::forEachAlone(count, robot::threadsFor(options.threads, count), [&](long long i) {
+    robot::forAll(count, robot::threadsFor(options.threads, count), 1, [&](long long i, int) {
       LinkPair& pair = result[static_cast<std::size_t>(i)];
       if (pair.verdict != PairVerdict::kOpen) return;
       const Clock::time_point begin = Clock::now();

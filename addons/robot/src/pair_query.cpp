@@ -39,6 +39,11 @@ double errorOf(const Body& other, double length) {
   return error;
 }
 
+bool collide(const Body& a, const Transform3d& X_WA, const Body& b, const Transform3d& X_WB,
+             const fcl::CollisionRequestd& request, fcl::CollisionResultd& result) {
+  return fcl::collide(a.geometry.get(), X_WA, b.geometry.get(), X_WB, request, result) > 0;
+}
+
 /// Returns true if one of two shapes is so much larger that libccd's search for a contact has no
 /// end.
 bool areUnlike(const Body& a, const Body& b) {
@@ -88,7 +93,7 @@ bool isContained(const Body& a, const Transform3d& X_WA, const Body& b, const Tr
                  Nearness& near) {
   if (!isSolid(*a.mesh) || !isSolid(*b.mesh)) return false;
   fcl::CollisionResultd result;
-  if (fcl::collide(a.mesh, X_WA, b.mesh, X_WB, fcl::CollisionRequestd(), result) == 0) return false;
+  if (!collide(a, X_WA, b, X_WB, fcl::CollisionRequestd(), result)) return false;
   near = {};
   near.point_a = near.point_b = result.getContact(0).pos;
   return true;
@@ -149,36 +154,6 @@ Nearness ofMeshAndOther(const Body& mesh, const Transform3d& X_WM, const Body& o
   return near;
 }
 
-/// Returns the mesh of one triangle of a mesh; other geometries as they are.
-std::shared_ptr<const fcl::CollisionGeometryd> triangleOf(const Body& body, std::intptr_t id) {
-  if (!body.mesh) return body.geometry;
-  std::vector<Vector3d> vertices;
-  for (int k = 0; k < 3; ++k) {
-    vertices.push_back(body.mesh->vertices[body.mesh->tri_indices[id][k]]);
-  }
-  return makeModel(vertices, {{0, 1, 2}});
-}
-
-/// Returns true if a query that asks for the point of a contact has to prepare a mesh for that.
-bool wouldPrepare(const Body& a, const Body& b) {
-  if (a.kind == BodyKind::kOctree || b.kind == BodyKind::kOctree) return false;  // of its own cell
-  const auto solid = [](const Body& body) { return !body.mesh || isSolid(*body.mesh); };
-  const auto ready = [](const Body& body) { return !body.mesh || preparedBytes(*body.mesh) > 0; };
-  return !(ready(a) && ready(b)) && !(solid(a) && solid(b));
-}
-
-/// Returns the point of a contact whose ids are known, at a small part of what preparing takes.
-Vector3d pointOf(const RobotContact& contact, const Body& a, const Transform3d& X_WA, const Body& b,
-                 const Transform3d& X_WB) {
-  const auto first = triangleOf(a, contact.id_a), second = triangleOf(b, contact.id_b);
-  const fcl::CollisionRequestd request(1, true);
-  fcl::CollisionResultd result;
-  if (fcl::collide(first.get(), X_WA, second.get(), X_WB, request, result) == 0) {
-    fcl::collide(a.geometry.get(), X_WA, b.geometry.get(), X_WB, request, result);
-  }
-  return result.getContact(0).pos;
-}
-
 }  // namespace
 
 Nearness distanceOf(const Body& a, const Transform3d& X_WA, const Body& b, const Transform3d& X_WB,
@@ -226,21 +201,15 @@ bool touching(const Body& a, const Transform3d& X_WA, const Body& b, const Trans
     if (near.lower <= 0) nearContact(near);
     return near.lower <= 0;  // free only by proof, as distances round by the larger one's size
   }
-  const bool ids_alone = contact && !shapes && wouldPrepare(a, b);
-  fcl::CollisionRequestd request(1, contact && !ids_alone);
+  const fcl::CollisionRequestd request(1, contact != nullptr);
   fcl::CollisionResultd result;
-  const auto* const first = a.geometry.get();
-  const auto* const second = b.geometry.get();
-  const std::size_t count = shapes ? fcl_own::collide(first, X_WA, second, X_WB, request, result)
-                                   : fcl::collide(first, X_WA, second, X_WB, request, result);
-  if (count == 0) return false;
+  if (!collide(a, X_WA, b, X_WB, request, result)) return false;
   if (contact && result.numContacts() > 0) {
     const fcl::Contactd& c = result.getContact(0);
-    const bool same = c.o1 == first;
+    const bool same = c.o1 == a.geometry.get();
     contact->point = c.pos;
     contact->id_a = same ? c.b1 : c.b2;
     contact->id_b = same ? c.b2 : c.b1;
-    if (ids_alone) contact->point = pointOf(*contact, a, X_WA, b, X_WB);
     if (a.kind == BodyKind::kShape) contact->id_a = -1;
     if (b.kind == BodyKind::kShape || b.kind == BodyKind::kPlane) contact->id_b = -1;
     if (a.kind == BodyKind::kPlane) contact->id_a = -1;
@@ -261,14 +230,9 @@ Vector3d wayOut(const Body& a, const Transform3d& X_WA, const Body& b, const Tra
     fcl::CollisionRequestd request(1, true);
     fcl::CollisionResultd result;
     try {
-      const auto* const first = a.geometry.get();
-      const auto* const second = b.geometry.get();
-      const std::size_t count = a.mesh || b.mesh
-                                    ? fcl::collide(first, X_WA, second, X_WB, request, result)
-                                    : fcl_own::collide(first, X_WA, second, X_WB, request, result);
-      if (count > 0 && result.numContacts() > 0) {
+      if (collide(a, X_WA, b, X_WB, request, result) && result.numContacts() > 0) {
         const fcl::Contactd& c = result.getContact(0);
-        way = c.o1 == first ? c.normal : Vector3d(-c.normal);
+        way = c.o1 == a.geometry.get() ? c.normal : Vector3d(-c.normal);
         if (c.pos.allFinite()) near.point_a = near.point_b = c.pos;
       }
     } catch (const std::exception&) {

@@ -104,12 +104,18 @@ VectorXd configuration(const Robot& robot, const Options& options, const std::st
 }
 
 std::vector<VectorXd> pathOf(const Robot& robot, const Options& options, std::size_t least) {
+  std::vector<VectorXd> path;
+  if (options.path.empty()) {
+    path.push_back(configuration(robot, options, options.at, "--from"));
+    if (least < 2 && options.to.empty()) return path;
+    path.push_back(configuration(robot, options, options.to, "--to"));
+    return path;
+  }
   const std::string& name = options.path;
   std::ifstream file;
   if (name != "-") file.open(name);
   if (name != "-" && (!file || fs::is_directory(name))) refuse(name + ": it can't be read.");
   std::istream& stream = name == "-" ? std::cin : file;
-  std::vector<VectorXd> path;
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
     ++number;
@@ -148,23 +154,22 @@ Robot loadInOurWords(const Options& options, const RobotOptions& robot_options) 
 }  // namespace
 
 Robot load(const Options& options) {
+  const auto inTwo = [](const std::string& text, const char* must) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) refuse(std::string(must) + ", but is " + text + ".");
+    return std::pair(text.substr(0, equals), text.substr(equals + 1));
+  };
   RobotOptions robot_options;
   robot_options.padding = options.padding;
   for (const std::string& package : options.packages) {
-    const std::size_t equals = package.find('=');
-    if (equals == std::string::npos)
-      refuse("--package must be NAME=FOLDER, but is " + package + ".");
-    const std::string folder = package.substr(equals + 1);
+    const auto [name, folder] = inTwo(package, "--package must be NAME=FOLDER");
     if (!fs::is_directory(folder)) refuse("--package " + package + ": there is no such folder.");
-    robot_options.packages[package.substr(0, equals)] = folder;
+    robot_options.packages[name] = folder;
   }
   Robot robot = loadInOurWords(options, robot_options);
   for (const std::string& octomap : options.octomaps) {  // first, as scenes may name them
-    const std::size_t equals = octomap.find('=');
-    if (equals == std::string::npos) {
-      refuse("--octomap must be NAME=FILE, but is " + octomap + ".");
-    }
-    robot.addOctomap(octomap.substr(0, equals), octomap.substr(equals + 1));
+    const auto [name, file] = inTwo(octomap, "--octomap must be NAME=FILE");
+    robot.addOctomap(name, file);
   }
   for (const std::string& scene : options.scenes) robot.addScene(scene);
   for (const std::string& warning : robot.warnings()) {
@@ -314,13 +319,7 @@ Answer clearance(const Robot& robot, const Options& options) {
 }
 
 Answer motion(const Robot& robot, const Options& options) {
-  std::vector<VectorXd> path;
-  if (options.path.empty()) {
-    path = {configuration(robot, options, options.at, "--from"),
-            configuration(robot, options, options.to, "--to")};
-  } else {
-    path = pathOf(robot, options, 2);
-  }
+  const std::vector<VectorXd> path = pathOf(robot, options, 2);
   MotionRequest request;
   request.min_separation = options.separation;
   request.first_contact = options.first;
@@ -383,14 +382,7 @@ Answer pairs(const Robot& robot, const Options& options) {
 }
 
 Answer show(const Robot& robot, const Options& options) {
-  std::vector<VectorXd> path;
-  if (options.path.empty()) {
-    path.push_back(configuration(robot, options, options.at, "--at"));
-    if (!options.to.empty()) path.push_back(configuration(robot, options, options.to, "--to"));
-  } else {
-    path = pathOf(robot, options, 1);
-  }
-  return writePage(robot, options, path);
+  return writePage(robot, options, pathOf(robot, options, 1));
 }
 
 }  // namespace kios::robot_tool

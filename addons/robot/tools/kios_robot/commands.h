@@ -54,6 +54,7 @@ Eigen::VectorXd configuration(const Robot& robot, const Options& options, const 
 double limited(const Robot& robot, const Options& options, Eigen::Index i, double x,
                const std::string& option);
 /// Configurations of --path, or of standard input by the name -, one a line; at least so many.
+/// Without it --from and --to; --from alone if one will do.
 std::vector<Eigen::VectorXd> pathOf(const Robot& robot, const Options& options, std::size_t least);
 /// Writes the page of a path to the file of --html.
 Answer writePage(const Robot& robot, const Options& options,

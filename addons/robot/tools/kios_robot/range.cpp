@@ -57,10 +57,9 @@ std::vector<VectorXd> pathOf(const JointBox& box) {
   std::vector<VectorXd> path(2, VectorXd(static_cast<Eigen::Index>(box.lower.size())));
   int ranges = 0;
   for (std::size_t i = 0; i < box.lower.size(); ++i) {
-    path[0][static_cast<Eigen::Index>(i)] = std::max(box.lower[i], -kPi);
-    path[1][static_cast<Eigen::Index>(i)] = std::min(box.upper[i], kPi);
-    if (std::isfinite(box.lower[i])) path[0][static_cast<Eigen::Index>(i)] = box.lower[i];
-    if (std::isfinite(box.upper[i])) path[1][static_cast<Eigen::Index>(i)] = box.upper[i];
+    const auto at = static_cast<Eigen::Index>(i);
+    path[0][at] = std::isfinite(box.lower[i]) ? box.lower[i] : -kPi;
+    path[1][at] = std::isfinite(box.upper[i]) ? box.upper[i] : kPi;
     ranges += box.lower[i] < box.upper[i] ? 1 : 0;
   }
   if (ranges > 1) refuse("--html shows the range of one joint, or a path.");
@@ -104,9 +103,6 @@ Answer range(const Robot& robot, const Options& options) {
   JointBox joints;
   if (box) {
     joints = boxOf(robot, options);
-  } else if (options.path.empty()) {
-    path = {configuration(robot, options, options.at, "--from"),
-            configuration(robot, options, options.to, "--to")};
   } else {
     path = kios::robot_tool::pathOf(robot, options, 2);
   }

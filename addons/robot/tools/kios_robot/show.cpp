@@ -3,8 +3,8 @@
 #include "show.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "commands.h"
 #include "shape_mesh.h"
 #include "viewer/viewer.h"
 #include "way.h"
@@ -12,15 +12,12 @@
 namespace kios::robot_tool {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Eigen::VectorXd;
 using fcl::Transform3d;
 using fcl::Vector3d;
 
 constexpr int kSteps = 100;      // of a path
 constexpr int kLeastSteps = 10;  // of a part of it
-
-Json listOf(const VectorXd& v) { return std::vector<double>(v.data(), v.data() + v.size()); }
 
 bool isEndless(const fcl::CollisionGeometryd& geometry) {
   return geometry.getNodeType() == fcl::GEOM_HALFSPACE || geometry.getNodeType() == fcl::GEOM_PLANE;

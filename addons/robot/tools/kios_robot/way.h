@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "fcl_kios/robot/robot.h"
@@ -47,17 +48,8 @@ class Way {
 
 /// In words, as pages and JSON have them.
 inline const char* nameOf(MotionVerdict verdict) {
-  switch (verdict) {
-    case MotionVerdict::kClear:
-      return "clear";
-    case MotionVerdict::kContact:
-      return "contact";
-    case MotionVerdict::kUnresolved:
-      return "unresolved";
-    case MotionVerdict::kBudgetSpent:
-      break;
-  }
-  return "budget spent";
+  constexpr const char* kNames[] = {"clear", "contact", "unresolved", "budget spent"};
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 }  // namespace kios::robot_tool
