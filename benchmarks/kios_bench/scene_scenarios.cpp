@@ -122,7 +122,7 @@ std::vector<Row> rowsOf(const scenes::BodyScene& scene, SceneQuery query, Row ba
     }
     const long long queried = std::accumulate(entrant.queried.begin(), entrant.queried.end(), 0LL);
     row.pairs.narrow_queries = static_cast<double>(queried) / static_cast<double>(row.frames);
-    row.pairs.total = scene.size() * (scene.size() - 1) / 2 * row.frames;
+    row.pairs.total = static_cast<std::size_t>(scene.size() * (scene.size() - 1) / 2) * row.frames;
     row.errors.max_abs = 0;
     row.errors.wrong = 0;
     for (std::size_t frame = 0; frame < frames; ++frame) {
