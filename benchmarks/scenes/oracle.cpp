@@ -161,23 +161,4 @@ double MeshOracle::distanceBruteForce(const fcl::Transform3d& X_WA,
   return static_cast<double>(best);
 }
 
-bool MeshOracle::collideBruteForce(const fcl::Transform3d& X_WA,
-                                   const fcl::Transform3d& X_WB) const {
-  return !collidingPairsBruteForce(X_WA, X_WB).empty();
-}
-
-MeshOracle::Pairs MeshOracle::collidingPairsBruteForce(const fcl::Transform3d& X_WA,
-                                                       const fcl::Transform3d& X_WB) const {
-  const std::vector<ExactTriangle> placed = placeB(X_WA, X_WB);
-  Pairs pairs;
-  for (std::size_t i = 0; i < triangles_a_.size(); ++i) {
-    for (std::size_t j = 0; j < placed.size(); ++j) {
-      if (trianglesMeet(triangles_a_[i], placed[j])) {
-        pairs.emplace_back(static_cast<int>(i), static_cast<int>(j));
-      }
-    }
-  }
-  return pairs;
-}
-
 }  // namespace kios::scenes

@@ -143,25 +143,5 @@ TEST(Variants, BoundsOfSeparatedSetsAreTight) {
   }
 }
 
-TEST(Variants, EmptyIsInfinitelyFarAndContainsNothing) {
-  forEachPolicy([](const std::string& name, const auto& policy) {
-    const PointSet points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    const auto model = policy.share(points.data(), 3);
-    const auto none = policy.share(nullptr, 0);
-    typename std::decay_t<decltype(policy)>::Store store;
-    store.add(policy.fit(nullptr, 0, model));
-    store.add(fitOf(policy, points, model));
-    store.add(policy.fit(nullptr, 0, none));
-    const RelativePose<double> X(fcl::Matrix3d::Identity(), fcl::Vector3d(0, 0, 0));
-    EXPECT_EQ(policy.separation(store[0], store[1], policy.place(model, model, X), 0), kInfinity);
-    EXPECT_EQ(policy.separation(store[1], store[2], policy.place(model, none, X), 0), kInfinity);
-    EXPECT_LE(policy.separation(store[1], store[1], policy.place(model, model, X), 0), 0) << name;
-    EXPECT_FALSE(policy.contains(store[0], model, points[0])) << name;
-    EXPECT_TRUE(policy.contains(store[1], model, points[0])) << name;
-    EXPECT_FALSE(policy.contains(store[1], model, fcl::Vector3d(9, 9, 9))) << name;
-    EXPECT_FALSE(policy.contains(store[1], model, fcl::Vector3d(NAN, 0, 0))) << name;
-  });
-}
-
 }  // namespace
 }  // namespace kios::testing
