@@ -41,22 +41,10 @@ RobotCase randomRobot(const Kind& kind, Random& random) {
   RobotCase robot;
   const int links = static_cast<int>(random.uniform(kind.least_links, kind.most_links + 1));
   for (int i = 0; i < links; ++i) {
-    Joint joint;
-    const double type = random.unit();
-    joint.type = type < 0.7   ? JointType::kRevolute
-                 : type < 0.9 ? JointType::kPrismatic
-                              : JointType::kFixed;
-    joint.X_PJ = randomPose(random, kind.offset);
-    joint.axis = random.uniform(0.2, 2) * inBall(random);
-    const int known = robot.linkage.coordinates();
-    if (known > 0 && kind.mimics > 0 && random.unit() < kind.mimics) {
-      joint.coordinate = std::min(static_cast<int>(random.uniform(0, known)), known - 1);
-      joint.multiplier = random.uniform(-2, 2);
-      joint.offset = random.uniform(-0.5, 0.5);
-    }
     const bool straight = i == 0 || random.unit() < kind.straight;
     const int parent = straight ? i - 1 : static_cast<int>(random.uniform(-1, i));
-    robot.addLink(parent, joint);
+    robot.addLink(parent,
+                  randomJoint(random, kind.offset, 0.2, robot.linkage.coordinates(), kind.mimics));
     if (random.unit() < 0.85) {
       robot.addBody(i, modelOf(linkMesh(random)), randomPose(random, 0.3 * kind.offset));
     }
