@@ -181,22 +181,4 @@ double MeshOracle::distanceBruteForce(const fcl::Transform3d& X_WA,
   return static_cast<double>(best);
 }
 
-bool MeshOracle::collideBruteForce(const fcl::Transform3d& X_WA,
-                                   const fcl::Transform3d& X_WB) const {
-  return !collidingPairsBruteForce(X_WA, X_WB).empty();
-}
-
-MeshOracle::Pairs MeshOracle::collidingPairsBruteForce(const fcl::Transform3d& X_WA,
-                                                       const fcl::Transform3d& X_WB) const {
-  const ExactTree b = placedB(X_WA, X_WB);
-  Pairs pairs;
-  for (std::size_t i = 0; i < a_.ids.size(); ++i) {
-    for (std::size_t j = 0; j < b.ids.size(); ++j) {
-      if (trianglesMeet(a_.triangles[i], b.triangles[j])) pairs.emplace_back(a_.ids[i], b.ids[j]);
-    }
-  }
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
-}
-
 }  // namespace kios::scenes

@@ -47,10 +47,8 @@ class MeshOracle {
   /// Returns all pairs that meet, in ascending order.
   Pairs collidingPairs(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
 
-  // Searches all pairs of triangles, without a tree. Results are equal, bit by bit.
+  /// Searches all pairs of triangles, without a tree. The result is equal, bit by bit.
   double distanceBruteForce(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
-  bool collideBruteForce(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
-  Pairs collidingPairsBruteForce(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
 
  private:
   ExactTree placedB(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;

@@ -155,54 +155,6 @@ TEST(ExactDistance, HoldsItsErrorDownToContact) {
   EXPECT_GT(gaps, 5'000);
 }
 
-/// The volume with its S0 elsewhere, and in other units; caps are stored relative to it.
-kIOSd placed(kIOSd v, double scale, const fcl::Vector3d& by) {
-  v.center0 = v.center0 * scale + by;
-  v.radius0 *= scale;
-  for (int i = 0; i < kIOSd::kCaps; ++i) {
-    for (float* cap : {v.cap_x, v.cap_y, v.cap_z, v.cap_r}) {
-      cap[i] = static_cast<float>(cap[i] * scale);
-    }
-  }
-  v.reach = static_cast<float>(v.reach * scale);
-  return v;
-}
-
-TEST(ExactDistance, HoldsAtAnyScaleAndOffset) {
-  Random random(15);
-  for (int i = 0; i < 500; ++i) {
-    const kIOSd a = fitted(shapePoints(random, PointShape::kRandom, 4 + i % 6));
-    const kIOSd b = fitted(shapePoints(random, PointShape::kRandom, 4 + i % 6));
-    const fcl::Matrix3d R = randomRotation(random);
-    const fcl::Vector3d T = random.uniform(1, 3) * randomDirection(random);
-    const fcl::Vector3d zero = fcl::Vector3d::Zero();
-    const ExactDistance at_one = exactDistance(a, b, RelativePose<double>(R, T));
-    for (const int e : {-28, -20, -10, 10, 20, 28}) {  // 4e-9 to 3e8
-      const double scale = std::ldexp(1.0, e);
-      const ExactDistance scaled = exactDistance(placed(a, scale, zero), placed(b, scale, zero),
-                                                 RelativePose<double>(R, T * scale));
-      ASSERT_EQ(scaled.distance > 0, at_one.distance > 0) << "pair " << i;
-      ASSERT_NEAR(scaled.distance / scale, at_one.distance, 1e-15) << "pair " << i;
-      ASSERT_EQ(scaled.normal, at_one.normal) << "pair " << i;
-    }
-    // Both far from the origin, together: only what rounding leaves of the relative pose changes.
-    for (const double offset : {1e3, 1e6, 1e9}) {
-      const fcl::Vector3d far = offset * randomDirection(random);
-      const ExactDistance moved = exactDistance(placed(a, 1, far), placed(b, 1, far),
-                                                RelativePose<double>(R, T + far - R * far));
-      ASSERT_NEAR(moved.distance, at_one.distance, 1e-12 + 6e-14 * offset) << "pair " << i;
-      ASSERT_LE(moved.error, 1e-12 + 6e-14 * offset) << "pair " << i;
-    }
-    // Decimal units: the caps are rounded anew, to 2^-24.
-    for (const double scale : {1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9}) {
-      const ExactDistance scaled = exactDistance(placed(a, scale, zero), placed(b, scale, zero),
-                                                 RelativePose<double>(R, T * scale));
-      ASSERT_NEAR(scaled.distance / scale, at_one.distance, 1e-5) << "pair " << i;
-      ASSERT_LE(scaled.error, 1e-12 * scale) << "pair " << i;
-    }
-  }
-}
-
 TYPED_TEST(ExactPair, OneFrameAndEmpty) {
   using S = TypeParam;
   Random random(16);

@@ -4,7 +4,7 @@
 // usage: flags [URDF SRDF]
 // Prints how the types of the interface lie in memory and, where it is given a robot, answers that
 // cross the library's boundary. Whatever flags this file is compiled with, the lines must be the
-// same: flags.sh compares, and finds types that are missing here.
+// same: flags.sh compares, and writes the list of types.
 #include <fcl_kios/clearance.h>
 #include <fcl_kios/fcl_kios.h>
 #include <fcl_kios/paper.h>
@@ -23,10 +23,10 @@ template <typename T>
 void print(const char* name) {
   std::printf("%s %zu %zu\n", name, sizeof(T), alignof(T));
 }
-#define PRINT(T) print<kios::T>(#T)
-#define PRINT_BOTH(T)         \
-  print<kios::T<double>>(#T); \
-  print<kios::T<float>>(#T)
+#define PRINT(T) print<T>(#T)
+#define PRINT_BOTH(T)   \
+  print<T<double>>(#T); \
+  print<T<float>>(#T)
 
 std::shared_ptr<const kios::Modeld> cube() {
   std::vector<fcl::Vector3d> corners;
@@ -168,66 +168,13 @@ void askRobot(const std::string& urdf, const std::string& srdf) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  PRINT_BOTH(kIOS);
-  PRINT_BOTH(RelativePose);
-  PRINT(detail::PoseBounds);
-  PRINT_BOTH(Cover);
-  PRINT_BOTH(ManagerQuery);
-  PRINT(ManagerQueryd::Pair);
-  PRINT_BOTH(SceneDistance);
-  PRINT_BOTH(ScenePair);
-  PRINT(SceneCounts);
-  PRINT(SceneRequest);
-  PRINT(ClashPart);
-  PRINT(ClashRequest);
-  PRINT(ClashResult);
-  PRINT(SearchCounts);
-  PRINT(SelfIntersection);
-  PRINT(Linkage);
-  PRINT(Joint);
-  PRINT(MotionResult);
-  PRINT(MotionCounts);
-  PRINT(MotionRequest);
-  PRINT(RangeRequest);
-  PRINT(RangeResult);
-  PRINT(JointBox);
-  PRINT(ContinuousCounts);
-  PRINT(Hole);
-  PRINT(RepairRequest);
-  PRINT(RepairReport);
-  PRINT_BOTH(RepairResult);
-  PRINT(Clearance);
-  PRINT(ExactDistance);
-  PRINT(FitOptions);
-  PRINT(WarmStart);
-  PRINT_BOTH(DistanceBracketRequest);
-  PRINT_BOTH(DistanceBracketResult);
-  PRINT(Closedness);
-  PRINT(FaultyEdge);
-  PRINT(NearestPoint);
-  PRINT(PointRequest);
-  PRINT(WindingTree);
-  PRINT(PenetrationResult);
-  PRINT(PenetrationRequest);
-  PRINT_BOTH(Ray);
-  PRINT_BOTH(RayHit);
-  PRINT_BOTH(RayInterval);
-  PRINT_BOTH(TriangleDistance);
-  PRINT_BOTH(TriangleVertices);
-#ifdef KIOS_ROBOT
-  PRINT(RobotElement);
-  PRINT(RobotGroup);
-  PRINT(RobotContact);
-  PRINT(ClearanceRequest);
-  PRINT(RobotClearance);
-  PRINT(RobotMotionRequest);
-  PRINT(RobotMotion);
-  PRINT(RobotRange);
-  PRINT(PairRequest);
-  PRINT(LinkPair);
-  PRINT(RobotOptions);
-  PRINT(Robot);
-#endif
+  {
+    using namespace kios;
+    using detail::PoseBounds;
+#include "types.inc"
+    PRINT(ManagerQueryd::Pair);
+    PRINT_BOTH(TriangleVertices);
+  }
   const kios::Joint joint;
   const auto* const start = reinterpret_cast<const char*>(&joint);
   std::printf("Joint: %td %td\n", reinterpret_cast<const char*>(&joint.X_PJ) - start,

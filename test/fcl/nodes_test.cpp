@@ -37,10 +37,10 @@ class Nodes : public ::testing::Test {
 };
 
 TEST_F(Nodes, CollisionWithAFrontListThatMoves) {
+  CollisionNode node;  // one node for all
   fcl::detail::BVHFrontList front;
   std::size_t contacts = 0;
   for (const Frame& frame : passage(60)) {
-    CollisionNode node;
     fcl::CollisionResultd result;
     ASSERT_TRUE(initialize(node, a_, frame.X_WA, b_, frame.X_WB,
                            fcl::CollisionRequestd(kAllContacts), result));
@@ -101,52 +101,37 @@ TEST_F(Nodes, SelfCollision) {
   }
 }
 
-TEST_F(Nodes, InitializeWithArgumentsThatAreNotConst) {
-  Modeld a(a_), b(b_);
-  for (Frame frame : passage(6)) {
-    CollisionNode collision;
-    fcl::CollisionResultd contacts;
-    const fcl::CollisionRequestd collision_request(kAllContacts);
-    ASSERT_TRUE(initialize(collision, a, frame.X_WA, b, frame.X_WB, collision_request, contacts));
-    fcl::detail::collide<double>(&collision);
-    EXPECT_EQ(contactPairs(contacts), oracle_.collidingPairs(frame.X_WA, frame.X_WB));
-    DistanceNode distance;
-    fcl::DistanceResultd result;
-    ASSERT_TRUE(
-        initialize(distance, a, frame.X_WA, b, frame.X_WB, fcl::DistanceRequestd(), result));
-    fcl::detail::distance<double>(&distance);
-    EXPECT_NEAR(result.min_distance, oracle_.distance(frame.X_WA, frame.X_WB), 2e-12);
-    // Mixtures compile, too.
-    const Transform3d X = frame.X_WB;
-    EXPECT_TRUE(initialize(collision, a, frame.X_WA, b_, X, collision_request, contacts));
-    EXPECT_TRUE(initialize(collision, a_, X, b, frame.X_WB, collision_request, contacts));
-    EXPECT_TRUE(initialize(distance, a, X, b, X, fcl::DistanceRequestd(), result));
-  }
-  EXPECT_TRUE(std::equal(a.vertices, a.vertices + a.num_vertices, a_.vertices));
-  EXPECT_TRUE(std::equal(b.vertices, b.vertices + b.num_vertices, b_.vertices));
-}
-
 // FCL's generic initialize() takes our nodes as their base class, moves the models and knows
-// nothing of the relative pose; a qualified call must not end there.
-TEST_F(Nodes, InitializeQualifiedWithFclsNamespace) {
+// nothing of the relative pose; neither a qualified call nor arguments that aren't const may end
+// there.
+TEST_F(Nodes, InitializeIsOursHoweverItIsCalled) {
   Modeld a(a_), b(b_);
-  for (Frame frame : passage(3)) {
-    CollisionNode collision;
-    fcl::CollisionResultd contacts;
-    ASSERT_TRUE(fcl::detail::initialize(collision, a, frame.X_WA, b, frame.X_WB,
-                                        fcl::CollisionRequestd(kAllContacts), contacts));
-    EXPECT_TRUE(std::equal(a.vertices, a.vertices + a.num_vertices, a_.vertices));
-    ASSERT_TRUE(collision.X_AB.has_value());
-    fcl::detail::collide<double>(&collision);
-    EXPECT_EQ(contactPairs(contacts), oracle_.collidingPairs(frame.X_WA, frame.X_WB));
-    DistanceNode distance;
-    fcl::DistanceResultd result;
-    ASSERT_TRUE(fcl::detail::initialize(distance, a, frame.X_WA, b, frame.X_WB,
-                                        fcl::DistanceRequestd(), result));
-    EXPECT_TRUE(std::equal(b.vertices, b.vertices + b.num_vertices, b_.vertices));
-    ASSERT_TRUE(distance.X_AB.has_value());
-    fcl::detail::distance<double>(&distance);
-    EXPECT_NEAR(result.min_distance, oracle_.distance(frame.X_WA, frame.X_WB), 2e-12);
+  const fcl::CollisionRequestd all(kAllContacts);
+  const fcl::DistanceRequestd request;
+  for (const bool qualified : {false, true}) {
+    for (Frame frame : passage(4)) {
+      Transform3d &X = frame.X_WA, &Y = frame.X_WB;
+      CollisionNode collision;
+      DistanceNode distance;
+      fcl::CollisionResultd contacts;
+      fcl::DistanceResultd result;
+      ASSERT_TRUE(qualified ? fcl::detail::initialize(collision, a, X, b, Y, all, contacts)
+                            : initialize(collision, a, X, b, Y, all, contacts));
+      ASSERT_TRUE(qualified ? fcl::detail::initialize(distance, a, X, b, Y, request, result)
+                            : initialize(distance, a, X, b, Y, request, result));
+      EXPECT_TRUE(std::equal(a.vertices, a.vertices + a.num_vertices, a_.vertices));
+      EXPECT_TRUE(std::equal(b.vertices, b.vertices + b.num_vertices, b_.vertices));
+      ASSERT_TRUE(collision.X_AB.has_value() && distance.X_AB.has_value());
+      fcl::detail::collide<double>(&collision);
+      EXPECT_EQ(contactPairs(contacts), oracle_.collidingPairs(X, Y));
+      fcl::detail::distance<double>(&distance);
+      EXPECT_NEAR(result.min_distance, oracle_.distance(X, Y), 2e-12);
+      // Mixtures compile, too.
+      const Transform3d there = Y;
+      EXPECT_TRUE(initialize(collision, a, X, b_, there, all, contacts));
+      EXPECT_TRUE(initialize(collision, a_, there, b, Y, all, contacts));
+      EXPECT_TRUE(initialize(distance, a, there, b, there, request, result));
+    }
   }
 }
 
@@ -161,34 +146,6 @@ TEST_F(Nodes, FclsGenericFunctions) {
     fcl::detail::BVHCollide<kIOSd>(&a_, frame.X_WA, &b_, frame.X_WB,
                                    fcl::CollisionRequestd(kAllContacts), contacts);
     EXPECT_EQ(contactPairs(contacts), oracle_.collidingPairs(frame.X_WA, frame.X_WB));
-  }
-}
-
-TEST_F(Nodes, AreReusable) {
-  const auto small = kiosModel(scenes::icosphere(0.1, 0));
-  const Modeld& s = *small;
-  const scenes::MeshOracle small_oracle(scenes::icosphere(0.1, 0), mesh_b_);
-  CollisionNode collision;
-  DistanceNode distance;
-  for (const Frame& frame : passage(20)) {
-    for (const bool with_small : {false, true}) {
-      const Modeld& first = with_small ? s : a_;
-      const scenes::MeshOracle& oracle = with_small ? small_oracle : oracle_;
-      fcl::CollisionResultd contacts;
-      initialize(collision, first, frame.X_WA, b_, frame.X_WB, fcl::CollisionRequestd(kAllContacts),
-                 contacts);
-      fcl::detail::collide<double>(&collision);
-      EXPECT_EQ(contactPairs(contacts), oracle.collidingPairs(frame.X_WA, frame.X_WB));
-      fcl::DistanceResultd result;
-      initialize(distance, first, frame.X_WA, b_, frame.X_WB, fcl::DistanceRequestd(), result);
-      fcl::detail::distance<double>(&distance);
-      const double d = result.min_distance;
-      EXPECT_NEAR(d, oracle.distance(frame.X_WA, frame.X_WB), 2e-12);
-      result.clear();  // the same node once more, into a fresh result
-      fcl::detail::distance<double>(&distance);
-      EXPECT_EQ(result.min_distance, d);
-      EXPECT_EQ(result.o1, &first);
-    }
   }
 }
 
@@ -238,14 +195,19 @@ TEST_F(Nodes, CollisionTestsFewVolumes) {
 TEST_F(Nodes, StatisticsAreCountedOnDemand) {
   const Frame frame = passage(4).front();
   DistanceNode node;
-  fcl::DistanceResultd result;
+  fcl::DistanceResultd other, result;
+  initialize(node, b_, frame.X_WA, b_, frame.X_WB, fcl::DistanceRequestd(), other);
+  fcl::detail::distance<double>(&node);  // of other models
   initialize(node, a_, frame.X_WA, b_, frame.X_WB, fcl::DistanceRequestd(), result);
   fcl::detail::distance<double>(&node);
+  EXPECT_NEAR(result.min_distance, oracle_.distance(frame.X_WA, frame.X_WB), 2e-12);
   EXPECT_EQ(node.num_bv_tests, 0);
   EXPECT_EQ(node.num_leaf_tests, 0);
+  const double d = result.min_distance;
   node.enable_statistics = true;
-  result.clear();
+  result.clear();  // the same node once more, into a fresh result
   fcl::detail::distance<double>(&node);
+  EXPECT_EQ(result.min_distance, d);
   EXPECT_GT(node.num_bv_tests, 0);
   EXPECT_GT(node.num_leaf_tests, 0);
   EXPECT_LT(node.num_leaf_tests, a_.num_tris);

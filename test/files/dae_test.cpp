@@ -76,6 +76,16 @@ TEST(Dae, NodesArePlacedInDoubles) {
   EXPECT_NEAR(volume, 1.0 / 6, 1e-9);
 }
 
+TEST(Dae, NodesAreObjectsByTheirNamesOrIds) {
+  const std::string geometry = "<instance_geometry url='#g'/>";
+  const files::Mesh mesh = readContent(
+      "a.dae",
+      with("<node>" + geometry + "</node>", "<node id='a' name='left'>" + geometry +
+                                                "</node><node id='right'>" + geometry + "</node>"));
+  EXPECT_EQ(mesh.objects, (std::vector<std::string>{"left", "right"}));
+  EXPECT_EQ(mesh.object_of, (std::vector<int>{0, 0, 0, 0, 1, 1, 1, 1}));
+}
+
 TEST(Dae, TheUnitCountsTheUpAxisDoesNot) {
   const files::Mesh mesh = readContent(
       "a.DAE",

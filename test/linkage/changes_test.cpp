@@ -5,9 +5,6 @@
 
 #include <fcl/config.h>
 
-#include <iterator>
-#include <map>
-
 #include "fcl/expect_refused.h"
 #include "linkage/robot_cases.h"
 
@@ -176,108 +173,6 @@ TEST(ChangedGeometry, LinksComeAfterAnOctreeGrew) {
             MotionVerdict::kClear);
 }
 #endif
-
-// A linkage whose bodies come, go and move answers as one that is built anew; so does a copy that
-// was made before.
-TEST(ChangedBodies, AnswerAsIfBuiltAnew) {
-  Random random(7);
-  const std::vector<BodyGeometry> geometries = {
-      boxOf(0.2, 0.1, 0.3), std::make_shared<fcl::Sphered>(0.1),
-      std::make_shared<fcl::Cylinderd>(0.1, 0.3),
-      std::make_shared<fcl::Halfspaced>(Vector3d::UnitZ(), -2.5), [] {
-        auto free = std::make_shared<fcl::Boxd>(0.3, 0.3, 0.3);
-        free->threshold_occupied = 2;
-        return free;
-      }()};
-  for (int round = 0; round < 12; ++round) {
-    Linkage base;
-    for (int i = 0; i < 4; ++i) {
-      base.addLink(i - 1, joint(i == 2 ? JointType::kPrismatic : JointType::kRevolute,
-                                0.5 * inBall(random), inBall(random)));
-    }
-    struct Known {
-      RobotCase::Body body;
-      std::set<int> ignored;
-    };
-    std::map<int, Known> known;
-    const auto build = [&](const std::map<int, Known>& all) {
-      Linkage fresh = base;
-      std::map<int, int> numbers;
-      for (const auto& [id, one] : all) {
-        numbers[id] = fresh.addBody(one.body.link, one.body.geometry, one.body.X_LB);
-        for (const int other : one.ignored) {
-          if (other < id) fresh.ignorePair(numbers[id], numbers[other]);
-        }
-      }
-      return fresh;
-    };
-    Linkage linkage = base, copy = base;
-    std::map<int, Known> copied;
-    for (int step = 0; step < 80; ++step) {
-      const double what = random.unit();
-      auto at = known.begin();
-      if (!known.empty()) {
-        std::advance(at, static_cast<long>(random.unit() * static_cast<double>(known.size() - 1)));
-      }
-      const auto g = static_cast<std::size_t>(random.uniform(0, 4.99));
-      const int link = static_cast<int>(random.uniform(-2, 3.99));
-      const Transform3d X = randomPose(random, random.unit() < 0.03 ? 1e9 : 1.5);
-      if (known.empty() || what < 0.3) {
-        const int to = g == 3 ? -1 : std::max(-1, link);
-        const int id = linkage.addBody(to, geometries[g], X);
-        ASSERT_EQ(known.count(id), 0U);
-        known[id] = {{to, geometries[g], X}, {}};
-      } else if (what < 0.5) {
-        at->second.body.X_LB = X;
-        linkage.moveBody(at->first, X);
-      } else if (what < 0.6 && at->second.body.geometry != geometries[3]) {
-        at->second.body.X_LB = X;
-        at->second.body.link = std::max(-1, link);
-        linkage.moveBody(at->first, at->second.body.link, X);
-      } else if (what < 0.7) {
-        linkage.removeBody(at->first);
-        for (auto& [id, other] : known) other.ignored.erase(at->first);
-        expectRefused([&] { linkage.moveBody(at->first, X); }, "no body");
-        known.erase(at);
-      } else if (known.size() > 1) {
-        const int other = std::prev(known.end())->first;
-        if (other == at->first) continue;
-        const bool ignored = known[other].ignored.count(at->first) == 0;
-        linkage.ignorePair(other, at->first, ignored);
-        linkage.ignorePair(at->first, other, ignored);
-        for (const auto& [a, b] : {std::pair(other, at->first), std::pair(at->first, other)}) {
-          if (ignored) {
-            known[a].ignored.insert(b);
-          } else {
-            known[a].ignored.erase(b);
-          }
-        }
-      }
-      Joints q(4), to(4);
-      for (int k = 0; k < 4; ++k) {
-        q[k] = random.uniform(-2, 2);
-        to[k] = q[k] + random.uniform(-0.3, 0.3);
-      }
-      const auto expectSame = [&](const Linkage& changed, const Linkage& fresh) {
-        MotionRequest request;
-        request.first_contact = true;
-        const MotionResult x = checkMotion(changed, q, to, request),
-                           y = checkMotion(fresh, q, to, request);
-        ASSERT_EQ(x.counts.pairs, y.counts.pairs) << round << " " << step;
-        ASSERT_EQ(x.verdict, y.verdict) << round << " " << step;
-        EXPECT_NEAR(x.to, y.to, 1e-5);
-        EXPECT_EQ(leastClearances(changed, q, q).size(), leastClearances(fresh, q, q).size());
-      };
-      expectSame(linkage, build(known));
-      if (step % 20 == 7) {
-        copy = linkage;
-        copied = known;
-      }
-      if (step % 20 == 17) expectSame(copy, build(copied));
-      if (::testing::Test::HasFatalFailure()) return;
-    }
-  }
-}
 
 TEST(ChangedBodies, AreMeasuredOnceForManyLinkages) {
   const auto box = std::make_shared<fcl::Boxd>(0.1, 0.2, 0.3);

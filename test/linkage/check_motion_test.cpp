@@ -176,42 +176,6 @@ TEST(CheckMotion, PairsThatNothingMovesAreAskedOnce) {
   EXPECT_EQ(ask(robot, q0, q1, true).to, 0);
 }
 
-/// Returns a chain of four links, a shape each, among shapes.
-RobotCase shapeRobot(Random& random) {
-  const std::vector<BodyGeometry> shapes = {std::make_shared<fcl::Sphered>(0.12),
-                                            std::make_shared<fcl::Capsuled>(0.05, 0.4),
-                                            std::make_shared<fcl::Boxd>(0.1, 0.3, 0.2),
-                                            std::make_shared<fcl::Cylinderd>(0.1, 0.3),
-                                            std::make_shared<fcl::Coned>(0.12, 0.3),
-                                            std::make_shared<fcl::Ellipsoidd>(0.1, 0.2, 0.15)};
-  RobotCase robot;
-  for (int i = 0; i < 4; ++i) {
-    robot.addLink(i - 1, joint(i == 2 ? JointType::kPrismatic : JointType::kRevolute,
-                               0.4 * inBall(random), inBall(random)));
-    robot.addBody(i, shapes[static_cast<std::size_t>(random.uniform(0, 6))],
-                  randomPose(random, 0.1));
-    if (i > 0) robot.ignorePair(i - 1, i);
-  }
-  for (const auto& shape : shapes) robot.addBody(-1, shape, randomPose(random, 0.9));
-  robot.addBody(-1, std::make_shared<fcl::Halfspaced>(Vector3d::UnitZ(), -0.9));
-  return robot;
-}
-
-TEST(CheckMotion, ShapesAmongThemselvesAgreeWithDenseSampling) {
-  Random random(12);
-  MotionTally tally;
-  for (int i = 0; i < 120; ++i) {
-    const RobotCase robot = shapeRobot(random);
-    Joints q0(4), step(4);
-    for (double& x : q0) x = random.uniform(-2, 2);
-    for (double& x : step) x = random.uniform(-0.5, 0.5);
-    SCOPED_TRACE(i);
-    expectRight(robot, q0, q0 + step, 100, tally);
-  }
-  tally.expectBothKinds();
-  EXPECT_EQ(tally.unresolved, 0);
-}
-
 TEST(CheckMotion, PlanesThatAreCarriedMustNotTurn) {
   RobotCase robot;
   robot.addLink(-1, joint(JointType::kPrismatic, {0, 0, 0}, {0, 0, 1}));

@@ -89,7 +89,7 @@ struct Tally {
   int clear = 0, contact = 0, unresolved = 0;
 };
 
-void expectFirst(const LineWorld& world, double resolution, double separation, Tally& tally) {
+void expectFirst(const LineWorld& world, double resolution, Tally& tally) {
   constexpr double kRounding = 1e-11;
   const int n = world.robot.linkage.coordinates();
   const Joints q0 = Joints::Zero(n), q1 = Joints::Ones(n);
@@ -110,8 +110,7 @@ void expectFirst(const LineWorld& world, double resolution, double separation, T
       EXPECT_LE(answer.to - answer.from, resolution);
       const Joints q = between(q0, q1, answer.to);
       EXPECT_TRUE(world.robot.meet(answer.body_a, world.robot.linkage.pose(answer.body_a, q),
-                                   answer.body_b, world.robot.linkage.pose(answer.body_b, q),
-                                   separation));
+                                   answer.body_b, world.robot.linkage.pose(answer.body_b, q), 0));
       break;
     }
     case MotionVerdict::kUnresolved: {
@@ -173,7 +172,7 @@ void runWorlds(bool shapes, int count, std::uint64_t seed) {
     const double resolution = randomResolution(random);
     const LineWorld world = randomWorld(random, resolution, shapes);
     SCOPED_TRACE("world " + std::to_string(i) + ", resolution " + std::to_string(resolution));
-    expectFirst(world, resolution, 0, tally);
+    expectFirst(world, resolution, tally);
     if (::testing::Test::HasFailure()) return;
   }
   EXPECT_GT(tally.clear, count / 50);
@@ -194,7 +193,7 @@ TEST(FirstContacts, OfPathsThatBeginInContact) {
       const double next = resolution * (0.05 + 0.003 * k);
       world.addObstacle(std::vector<Interval>{{-0.5, 1e-5 * resolution - 0.01},
                                               {next, next + 0.05 * resolution}});
-      expectFirst(world, resolution, 0, tally);
+      expectFirst(world, resolution, tally);
     }
   }
   EXPECT_EQ(tally.contact, 300);

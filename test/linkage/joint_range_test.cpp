@@ -8,8 +8,6 @@
 namespace kios::testing {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 double leastAt(const RobotCase& robot, const Joints& q) {
   double least = kInf;
   const auto X = robot.poses(q);
@@ -50,78 +48,6 @@ TEST(JointRange, ADoorOnItsHinge) {
       robot.addBody(-1, boxOf(0.1, 0.2, 2.1), X_W * shifted(-0.08, -0.9, 0));  // the other one
       expectLeastOfTurn(robot, -0.1, 1.6, width + gap - length, 0.01 * gap);
     }
-  }
-}
-
-// An eccentric disc and its follower, all round: the turn is a continuous joint's.
-TEST(JointRange, ACamOfCircles) {
-  const double radius = 0.1, off = 0.03, far = 0.3;
-  for (const bool mesh : {false, true}) {
-    RobotCase robot;
-    robot.addLink(-1, joint(JointType::kRevolute, {1, 2, 3}, {0, 0, 2}));  // half a turn is one
-    robot.addBody(0, std::make_shared<fcl::Sphered>(radius), shifted(off, 0, 0));
-    const Transform3d X = shifted(1, 2 + far + 0.05, 3);
-    if (mesh) {
-      robot.addBody(-1, boxOf(0.1, 0.1, 0.1), X);
-    } else {
-      robot.addBody(-1, std::make_shared<fcl::Sphered>(0.05), X);
-    }
-    for (const auto& [low, high] : {std::pair(-kInf, kInf), std::pair(-100.0, kInf),
-                                    std::pair(-kInf, 7.0), std::pair(-1e6, 1e6)}) {
-      const RangeResult result = leastClearance(robot.linkage, JointBox{{low}, {high}}, fine(1e-6));
-      expectLeast(robot, result, far - off - radius, 1e-6, 1e-9);
-      EXPECT_LE(result.queries, 10000);
-    }
-  }
-}
-
-// A parallelogram: the coupler, which mimics the crank, stays upright on its way round.
-TEST(JointRange, AFourBarOfMimics) {
-  const double crank = 0.4, high = 0.55;
-  RobotCase robot;
-  robot.addLink(-1, joint(JointType::kRevolute));
-  Joint coupler = joint(JointType::kRevolute, {crank, 0, 0});
-  coupler.coordinate = 0;
-  coupler.multiplier = -1;
-  robot.addLink(0, coupler);
-  Joint rocker = joint(JointType::kRevolute, {1, 0, 0});
-  rocker.coordinate = 0;
-  robot.addLink(-1, rocker);
-  robot.addBody(1, boxOf(1.1, 0.05, 0.05), shifted(0.5, 0, 0));
-  robot.addBody(2, boxOf(crank, 0.02, 0.02), shifted(0.5 * crank, 0, -0.2));
-  robot.addBody(-1, boxOf(3, 0.1, 0.1), shifted(0, high + 0.05, 0));
-  expectLeastOfTurn(robot, 0.1, 3, high - crank - 0.025, 1e-5);
-}
-
-// Stretched out, two links of a planar arm are nearest to what is out of their reach.
-TEST(JointRange, ABoxOfAPlanarArm) {
-  Random random(3);
-  for (int turned = 0; turned < 3; ++turned) {
-    const Transform3d X_W = turned > 0 ? randomPose(random, 2) : Transform3d::Identity();
-    RobotCase robot;
-    Joint base = joint(JointType::kRevolute);
-    base.X_PJ = X_W;
-    robot.addLink(-1, base);
-    robot.addLink(0, joint(JointType::kRevolute, {0.5, 0, 0}));
-    robot.addBody(0, std::make_shared<fcl::Capsuled>(0.04, 0.3),
-                  shifted(0.25, 0, 0) * Transform3d(Eigen::AngleAxisd(kPi / 2, Vector3d::UnitY())));
-    robot.addBody(1, std::make_shared<fcl::Sphered>(0.05), shifted(0.4, 0, 0));
-    robot.addBody(-1, std::make_shared<fcl::Sphered>(0.1), X_W * shifted(0.6, 1.0, 0));
-    robot.ignorePair(0, 1);
-    const double least = std::hypot(0.6, 1.0) - 0.9 - 0.15;
-    const RangeResult result =
-        leastClearance(robot.linkage, JointBox{{-kInf, -2}, {kInf, 2}}, fine(1e-3));
-    expectLeast(robot, result, least, 1e-3, 1e-9);
-    EXPECT_EQ(result.body_a, 1);
-    EXPECT_EQ(result.body_b, 2);
-    EXPECT_NEAR(result.at[1], 0, 0.1);
-    // Each pair by itself, of which that is the least.
-    const auto each = leastClearances(robot.linkage, JointBox{{-kInf, -2}, {kInf, 2}}, fine(1e-3));
-    ASSERT_EQ(each.size(), 2U);
-    EXPECT_EQ(each[0].body_a, 0);
-    EXPECT_EQ(each[0].body_b, 2);
-    EXPECT_GT(each[0].lower, 0.5);
-    expectLeast(robot, each[1], least, 1e-3, 1e-9);
   }
 }
 
@@ -180,16 +106,8 @@ RobotCase randomArm(Random& random, bool shapes) {
     return modelOf(scenes::flangedCylinder(0.5 * size, 2 * size, 8));
   };
   for (int i = 0; i < 3; ++i) {
-    const bool slides = random.unit() < 0.3;
-    Joint next = joint(slides ? JointType::kPrismatic : JointType::kRevolute);
-    next.X_PJ = randomPose(random, 0.6);
-    next.axis = random.uniform(0.3, 1.2) * inBall(random);
-    if (i == 2 && random.unit() < 0.5) {
-      next.coordinate = 0;
-      next.multiplier = random.uniform(-1.5, 1.5);
-      next.offset = 0.2;
-    }
-    robot.addLink(i - 1, next);
+    robot.addLink(i - 1,
+                  randomJoint(random, 0.6, 0.3, i == 2 ? robot.linkage.coordinates() : 0, 0.5));
     robot.addBody(i, geometry(), randomPose(random, 0.2));
   }
   for (int i = 0; i < 4; ++i) robot.addBody(-1, geometry(), randomPose(random, 1.6));

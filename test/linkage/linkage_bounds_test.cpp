@@ -37,21 +37,9 @@ struct TwoChains {
 
   explicit TwoChains(Random& random) {
     int stem = -1;
+    // One may mimic a joint of its own chain, or of the other one.
     const auto add = [&](int parent) {
-      Joint joint;
-      const double type = random.unit();
-      joint.type = type < 0.7   ? JointType::kRevolute
-                   : type < 0.9 ? JointType::kPrismatic
-                                : JointType::kFixed;
-      joint.X_PJ = randomPose(random, 0.5);
-      joint.axis = random.uniform(0.5, 2) * inBall(random);
-      const int known = robot.linkage.coordinates();
-      if (known > 0 && random.unit() < 0.3) {  // mimics a joint of this chain, or of the other one
-        joint.coordinate = std::min(static_cast<int>(random.uniform(0, known)), known - 1);
-        joint.multiplier = random.uniform(-2, 2);
-        joint.offset = random.uniform(-1, 1);
-      }
-      return robot.addLink(parent, joint);
+      return robot.addLink(parent, randomJoint(random, 0.5, 0.2, robot.linkage.coordinates(), 0.3));
     };
     for (int i = static_cast<int>(random.uniform(0, 3)); i > 0; --i) stem = add(stem);
     for (Mesh& mesh : meshes) {

@@ -19,14 +19,7 @@ using articulated::Path;
 RobotCase randomChain(Random& random, int links, double prismatic) {
   RobotCase robot;
   for (int i = 0; i < links; ++i) {
-    Joint joint;
-    const double type = random.unit();
-    joint.type = type < prismatic ? JointType::kPrismatic
-                 : type < 0.9     ? JointType::kRevolute
-                                  : JointType::kFixed;
-    joint.X_PJ = randomPose(random, 0.4);
-    joint.axis = random.uniform(0.3, 2) * inBall(random);
-    robot.addLink(i - 1, joint);
+    robot.addLink(i - 1, randomJoint(random, 0.4, prismatic));
     robot.addBody(i, modelOf(scenes::subdividedBox({0.3, 0.05, 0.02}, 2)), randomPose(random, 0.2));
   }
   return robot;

@@ -70,6 +70,25 @@ inline Transform3d randomPose(Random& random, double far) {
   return X;
 }
 
+/// Returns a joint that slides with a probability, else turns, or at times is fixed. It may mimic
+/// one of `known` coordinates.
+inline Joint randomJoint(Random& random, double offset, double slides = 0.2, int known = 0,
+                         double mimics = 0) {
+  Joint result;
+  const double type = random.unit();
+  result.type = type < slides ? JointType::kPrismatic
+                : type < 0.9  ? JointType::kRevolute
+                              : JointType::kFixed;
+  result.X_PJ = randomPose(random, offset);
+  result.axis = random.uniform(0.3, 2) * inBall(random);
+  if (known > 0 && random.unit() < mimics) {
+    result.coordinate = std::min(static_cast<int>(random.uniform(0, known)), known - 1);
+    result.multiplier = random.uniform(-2, 2);
+    result.offset = random.uniform(-1, 1);
+  }
+  return result;
+}
+
 inline Joints between(const Joints& q0, const Joints& q1, double s) {
   return s == 1 ? q1 : Joints(q0 + s * (q1 - q0));
 }

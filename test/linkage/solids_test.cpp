@@ -37,13 +37,13 @@ std::vector<BodyGeometry> smallBodies(double size) {
           std::make_shared<fcl::Coned>(0.4 * size, size)};
 }
 
-void expectVerdicts(const RobotCase& robot, double from, double to, bool contact) {
+/// Bodies 0 and 1 on the way from q0 to q1: the first contact, if any, is at its start.
+void expectVerdicts(const RobotCase& robot, const Joints& q0, const Joints& q1, bool contact) {
   for (const double separation : {0.0, 0.01}) {
     for (const bool first : {false, true}) {
       MotionRequest request;
       request.first_contact = first;
       request.min_separation = separation;
-      const Joints q0 = Joints::Constant(1, from), q1 = Joints::Constant(1, to);
       const MotionResult answer = checkMotion(robot.linkage, q0, q1, request);
       ASSERT_EQ(answer.verdict, contact ? MotionVerdict::kContact : MotionVerdict::kClear)
           << first << " " << separation;
@@ -55,6 +55,10 @@ void expectVerdicts(const RobotCase& robot, double from, double to, bool contact
       }
     }
   }
+}
+
+void expectVerdicts(const RobotCase& robot, double from, double to, bool contact) {
+  expectVerdicts(robot, Joints::Constant(1, from), Joints::Constant(1, to), contact);
 }
 
 TEST(MotionsOfSolids, WhatMovesWithinOneIsInContact) {
@@ -132,28 +136,14 @@ TEST(MotionsOfSolids, OneThatWasOpenedIsRefused) {
 }
 
 // A pair that the path doesn't move, on a slide that it does.
-TEST(SolidMotions, WhatNothingMovesLiesInIt) {
-  RobotCase robot;
+TEST(MotionsOfSolids, WhatNothingMovesLiesInIt) {
   for (const double far : {0.0, 5.0}) {
-    robot = RobotCase();
-    Joint slide, still;
-    slide.type = still.type = JointType::kPrismatic;
-    robot.addLink(-1, slide);
-    robot.addLink(0, still);
+    RobotCase robot;
+    robot.addLink(-1, joint(JointType::kPrismatic));
+    robot.addLink(0, joint(JointType::kPrismatic));
     robot.addBody(0, meshBox({2, 2, 2}, true));
-    robot.addBody(1, meshBox({0.5, 0.5, 0.5}, true),
-                  Transform3d(Eigen::Translation3d(far, 0.1, 0)));
-    for (const double separation : {0.0, 0.01}) {
-      for (const bool first : {false, true}) {
-        MotionRequest request;
-        request.first_contact = first;
-        request.min_separation = separation;
-        Joints q0 = Joints::Zero(2), q1 = q0;
-        q1[0] = 3;
-        const MotionResult answer = checkMotion(robot.linkage, q0, q1, request);
-        EXPECT_EQ(answer.verdict, far > 0 ? MotionVerdict::kClear : MotionVerdict::kContact);
-      }
-    }
+    robot.addBody(1, meshBox({0.5, 0.5, 0.5}, true), shifted(far, 0.1, 0));
+    expectVerdicts(robot, Joints::Zero(2), Eigen::Vector2d(3, 0), far == 0);
   }
 }
 

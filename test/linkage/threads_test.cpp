@@ -4,6 +4,7 @@
 // One linkage asked by eight threads gives the answers of one thread.
 
 #include "linkage/robot_cases.h"
+#include "shapes.h"
 #include "together.h"
 
 namespace kios::testing {
@@ -12,35 +13,28 @@ namespace {
 RobotCase robotOf(std::uint64_t seed) {
   Random random(seed);
   RobotCase robot;
+  const auto torus = [](int triangles, double size) {
+    return modelOf(transformed(scenes::bumpyTorus(triangles), size, Vector3d::Zero()));
+  };
   for (int i = 0; i < 5; ++i) {
-    Joint joint;
-    joint.type = i == 3 ? JointType::kPrismatic : JointType::kRevolute;
-    joint.X_PJ = randomPose(random, 0.4);
-    joint.axis = inBall(random);
-    robot.addLink(i - 1, joint);
-    Mesh mesh = scenes::bumpyTorus(400);
-    for (Vector3d& p : mesh.vertices) p *= 0.1;
-    robot.addBody(i, modelOf(mesh));
+    robot.addLink(i - 1, randomJoint(random, 0.4));
+    robot.addBody(i, torus(400, 0.1));
     if (i > 0) robot.ignorePair(i - 1, i);
   }
-  for (int i = 0; i < 8; ++i) {
-    Mesh mesh = scenes::bumpyTorus(600);
-    for (Vector3d& p : mesh.vertices) p *= 0.15;
-    robot.addBody(-1, modelOf(mesh), randomPose(random, 1));
-  }
+  for (int i = 0; i < 8; ++i) robot.addBody(-1, torus(600, 0.15), randomPose(random, 1.5));
   robot.addBody(-1, std::make_shared<fcl::Boxd>(0.2, 0.3, 0.4), randomPose(random, 1));
   return robot;
 }
 
 TEST(Threads, OneLinkageAnswersAsInOneThread) {
   constexpr int kPaths = 60;
+  const RobotCase alone = robotOf(3), shared = robotOf(3);  // nobody has asked the second
+  const int n = alone.linkage.coordinates();
   Random random(5);
   std::vector<std::pair<Joints, Joints>> paths;
   for (int i = 0; i < kPaths; ++i) {
-    Joints q0(5), step(5);
-    for (double& x : q0) x = random.uniform(-2, 2);
-    for (double& x : step) x = random.uniform(-0.5, 0.5);
-    paths.emplace_back(q0, q0 + step);
+    const Joints q0 = randomJoints(n, 2, random);
+    paths.emplace_back(q0, q0 + randomJoints(n, 0.5, random));
   }
   const auto ask = [&](const Linkage& linkage, std::size_t i) {
     MotionRequest request;
@@ -48,7 +42,6 @@ TEST(Threads, OneLinkageAnswersAsInOneThread) {
     request.min_separation = i % 2 == 0 ? 0 : 0.01;
     return checkMotion(linkage, paths[i].first, paths[i].second, request);
   };
-  const RobotCase alone = robotOf(3), shared = robotOf(3);  // nobody has asked the second
   std::vector<MotionResult> expected;
   int clear = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {

@@ -3,17 +3,42 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # usage: bundled.sh INTERPOSER WORK_DIR HOST PLUGIN TWO_FCLS OWN_FCL USES_LIBFCL LIBFCL
-# A plug-in with a copy of libfcl under another name, as tools make it that bundle libraries into a
-# package: it is answered. What only bears such a name isn't, and is left as it is.
+# The program as a plug-in that brings libfcl into a process, for itself alone: its queries are
+# answered nevertheless. So are they if its libfcl is a copy under another name, as tools make it
+# that bundle libraries into a package. What only bears such a name isn't, and is left as it is.
 set -euo pipefail
 
 interposer=$1 work=$2 host=$3 plugin=$4 two_fcls=$5 own_fcl=$6 uses_libfcl=$7 libfcl=$8
+rm -rf "$work"
+mkdir -p "$work"
+
+# ask MODE PLUGIN: its answers compared with those without us; what is said lies in log.
+parts=(obbrss reuse threads)
+ask() {
+  FCL_KIOS_PRELOAD=$1 LD_PRELOAD=$interposer \
+    "$host" "$2" check "$work/answers" "${parts[@]}" >/dev/null 2>"$work/log" || {
+    echo "$2, $1:"
+    cat "$work/log"
+    exit 1
+  }
+}
+expect() {
+  grep -qE "$1" "$work/log" && return
+  echo "not '$1' in:"
+  cat "$work/log"
+  exit 1
+}
+answers() {
+  "$host" "$1" write "$work/answers" "${parts[@]}"
+  for mode in off on trust stats verify; do ask "$mode" "$1"; done
+  expect 'distance: [0-9]{3,} by k-IOS, .* 0 differences'
+}
+
+answers "$plugin"
 if ! command -v patchelf >/dev/null; then
   echo "bundled: patchelf isn't there, by which such copies are made (Debian: patchelf)"
   exit 77
 fi
-rm -rf "$work"
-mkdir -p "$work"
 
 # bundle NAME: the plug-in, its libfcl a copy of that name.
 bundle() {
@@ -30,34 +55,13 @@ bundle() {
   fi
 }
 
-# ask MODE NAME: its answers compared with those without us; what is said lies in log.
-parts=(obbrss reuse threads)
-ask() {
-  FCL_KIOS_PRELOAD=$1 LD_PRELOAD=$interposer \
-    "$host" "$work/$2/plugin.so" check "$work/answers" "${parts[@]}" >/dev/null 2>"$work/log" || {
-    echo "$2, $1:"
-    cat "$work/log"
-    exit 1
-  }
-}
-expect() {
-  grep -qE "$1" "$work/log" && return
-  echo "not '$1' in:"
-  cat "$work/log"
-  exit 1
-}
-
 copy=libfcl-1a2b3c4d.so.0.7.0
 bundle "$copy"
-"$host" "$work/$copy/plugin.so" write "$work/answers" "${parts[@]}"
-for mode in off on trust verify stats; do ask "$mode" "$copy"; done
-expect 'distance: [0-9]{3,} by k-IOS'
-ask verify "$copy"
-expect 'distance: [0-9]{3,} by k-IOS, .* 0 differences'
+answers "$work/$copy/plugin.so"
 
 for other in libmyfcl.so.0.7 libfcl-1a2b3c4d.so.0.6 libfcl-hashes.so.0.7 libfcl-12.so.0.7; do
   bundle "$other"
-  ask stats "$other"
+  ask stats "$work/$other/plugin.so"
   if grep -qE '[1-9][0-9]* by k-IOS' "$work/log"; then
     echo "$other is answered:"
     cat "$work/log"

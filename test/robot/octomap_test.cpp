@@ -7,9 +7,6 @@
 #if FCL_HAVE_OCTOMAP
 #include <octomap/OcTree.h>
 
-#include <fstream>
-#include <sstream>
-
 #include <fcl/geometry/octree/octree.h>
 #include "fcl/expect_refused.h"
 #include "robot/robot_files.h"
@@ -24,12 +21,6 @@ std::shared_ptr<octomap::OcTree> someCells() {
     tree->updateNode(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0, 1), i % 4 > 0);
   }
   return tree;
-}
-
-std::string contentOf(const std::string& file) {
-  std::ostringstream content;
-  content << std::ifstream(file, std::ios::binary).rdbuf();
-  return content.str();
 }
 
 TEST(RobotOctomaps, AreThoseOfOctomap) {

@@ -189,7 +189,13 @@ class Case {
     for (double& x : q1) x += random_.uniform(-0.1, 0.1) * std::min(1.0, scale_);
     MotionRequest request;
     request.max_queries = 20000;
-    if (robot_.checkMotion(q0, q1, request).verdict != MotionVerdict::kClear) return;
+    const RobotMotion motion = robot_.checkMotion(q0, q1, request);
+    if (motion.verdict == MotionVerdict::kContact) {
+      EXPECT_NE(motion.a, motion.b);
+      computeTruth(q0 + motion.to * (q1 - q0));
+      EXPECT_TRUE(touches_ || unsure_) << motion.a << " " << motion.b;
+    }
+    if (motion.verdict != MotionVerdict::kClear) return;
     for (int i = 0; i <= 20; ++i) {
       computeTruth(q0 + i / 20.0 * (q1 - q0));
       EXPECT_TRUE(!touches_ || unsure_) << i;

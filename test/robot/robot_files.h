@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -54,6 +55,12 @@ class Folder {
  private:
   fs::path path_;
 };
+
+inline std::string contentOf(const std::string& file) {
+  std::ostringstream content;
+  content << std::ifstream(file, std::ios::binary).rdbuf();
+  return content.str();
+}
 
 /// Returns the folder of a MotionBenchMaker robot, empty if there is none.
 inline std::string mbmFolder(const std::string& robot) {
@@ -145,5 +152,54 @@ inline std::string manyJoints(const Folder& folder) {
                 "<limit lower='-0.05' upper='0.01'/>") +
           joint("wrist", "fixed", "slide", "tool", "<origin xyz='0 0 0.2'/>") + "</robot>\n");
 }
+
+/// A planning scene for that arm: objects of every kind, one of them attached, and allowed pairs.
+inline const char* const kScene = R"(name: test
+fixed_frame_transforms:
+  - child_frame_id: hall
+    transform: {translation: [1, 0, 0], rotation: [0, 0, 0, 1]}
+robot_state:
+  attached_collision_objects:
+    - link_name: tool
+      touch_links: [slide, left]
+      object:
+        id: cup
+        header: {frame_id: tool}
+        primitives: [{type: cylinder, dimensions: [0.1, 0.03]}]
+        primitive_poses: [{position: [0, 0, 0.1], orientation: [0, 0, 0, 1]}]
+link_padding:
+  - {link_name: upper, padding: 0.01}
+allowed_collision_matrix:
+  entry_names: [base, cart, shelf, unknown]
+  entry_values:
+    - [false, false, true, true]
+    - [false, false, false, false]
+    - {enabled: [true, false, false, false]}
+    - [true, false, false, false]
+  default_entry_names: [wall]
+  default_entry_values: [true]
+world:
+  collision_objects:
+    - id: shelf
+      header: {frame_id: hall}
+      pose: {position: [0, 2, 0], orientation: [0, 0, 0.7071067811865476, 0.7071067811865476]}
+      primitives:
+        - {type: box, dimensions: [0.2, 0.4, 0.6]}
+        - {type: 2, dimensions: [0.1]}
+        - {type: cone, dimensions: [0.1, 0.2]}
+      primitive_poses:
+        - position: {x: 0, y: 0, z: 0}
+          orientation: {x: 0, y: 0, z: 0, w: 1}
+        - position: [1, 0, 0]
+        - {position: [1, 1, 0], orientation: [0, 0, 0, 1]}
+    - id: tent
+      meshes:
+        - vertices: [[0, 0, 0], [1, 0, 0], {x: 0, y: 1, z: 0}]
+          triangles: [{vertex_indices: [0, 1, 2]}]
+      mesh_poses: [{position: [5, 0, 0]}]
+    - id: wall
+      planes: [{coef: [0, 1, 0, 4]}]
+      plane_poses: [{position: [0, 0, 0]}]
+)";
 
 }  // namespace kios::testing

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <thread>
 
 #include "robot/robot_files.h"
 #include "scenes/shapes.h"
+#include "together.h"
 
 namespace kios::testing {
 namespace {
@@ -271,18 +271,15 @@ TEST(RobotWorld, CopiesChangeInThreadsOfTheirOwn) {
     }
     return sum;
   };
-  std::vector<double> alone, together(places.size());
+  std::vector<double> alone, at_once(places.size());
   for (std::size_t t = 0; t < places.size(); ++t) alone.push_back(moveAll(robot, t));
   std::atomic<int> wrong{0};
-  std::vector<std::thread> threads;
-  for (std::size_t t = 0; t < places.size(); ++t) {
-    threads.emplace_back([&, t] {
-      together[t] = moveAll(robot, t);  // copied here, while others copy and ask
-      wrong += robot.clearance(q).clearance == before ? 0 : 1;
-    });
-  }
-  for (std::thread& thread : threads) thread.join();
-  EXPECT_EQ(together, alone);
+  together(static_cast<int>(places.size()), [&](int thread) {
+    const auto t = static_cast<std::size_t>(thread);
+    at_once[t] = moveAll(robot, t);  // copied here, while others copy and ask
+    wrong += robot.clearance(q).clearance == before ? 0 : 1;
+  });
+  EXPECT_EQ(at_once, alone);
   EXPECT_EQ(wrong, 0);
 }
 

@@ -138,20 +138,5 @@ TEST(Variants, BoundsOfSeparatedSetsAreTight) {
   }
 }
 
-TEST(Variants, EmptyIsInfinitelyFar) {
-  forEachPolicy([](const std::string& name, const auto& policy) {
-    const PointSet points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    const auto model = policy.share(points.data(), 3);
-    const auto none = policy.share(nullptr, 0);
-    const auto empty = policy.fit(nullptr, 0, model), full = fitOf(policy, points, model);
-    const RelativePose<double> X(fcl::Matrix3d::Identity(), fcl::Vector3d(0, 0, 0));
-    EXPECT_EQ(policy.separation(empty, full, policy.place(model, model, X), 0), kInfinity);
-    EXPECT_EQ(
-        policy.separation(full, policy.fit(nullptr, 0, none), policy.place(model, none, X), 0),
-        kInfinity);
-    EXPECT_LE(policy.separation(full, full, policy.place(model, model, X), 0), 0) << name;
-  });
-}
-
 }  // namespace
 }  // namespace kios::testing

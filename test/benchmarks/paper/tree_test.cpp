@@ -102,41 +102,5 @@ TEST(VariantTree, FarFromTheirOriginsAndAtAnyScale) {
   expectTrueAnswers(torus, moved(ball, 1, {0, 0, 1e9}), randomPoses(random, 3, 1e9, 0));
 }
 
-// One tree for all poses: bounds come from the stored spheres as they were.
-TEST(FixedDirections, NothingIsRecomputedWhenModelsTurn) {
-  const Mesh plate = scenes::sheet(2, 2, 8, 8, 0.05), torus = scenes::bentTorus();
-  const VariantTree<FixedDirectionKios> a(splitOf(plate)), b(splitOf(torus));
-  const scenes::MeshOracle oracle(plate, torus);
-  Random random(1);
-  for (const Pose& pose : randomPoses(random, 60, 1, 0)) {
-    const RelativePose<double> X(pose.a, pose.b);
-    ASSERT_NEAR(a.distance(b, X).distance, oracle.distance(pose.a, pose.b), 1e-14);
-    ASSERT_EQ(a.collide(b, X).contact, oracle.collide(pose.a, pose.b));
-  }
-}
-
-TEST(MeshSplit, EveryTriangleIsALeafOnce) {
-  for (const Mesh& mesh : {scenes::bumpyTorus(300), scenes::randomSoup(57, 1, 1e-9, 1, 3),
-                           scenes::singleTriangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}) {
-    const Split split = splitOf(mesh);
-    const auto& nodes = split->nodes();
-    ASSERT_EQ(nodes.size(), 2 * mesh.triangles.size() - 1);
-    std::vector<int> seen(mesh.triangles.size());
-    for (const auto& node : nodes) {
-      if (node.leaf()) {
-        ASSERT_EQ(node.count, 1);
-        ++seen[split->triangle(node.first)];
-        continue;
-      }
-      const auto &left = nodes[node.left], &right = nodes[node.left + 1];
-      ASSERT_EQ(left.first, node.first);
-      ASSERT_EQ(right.first, node.first + left.count);
-      ASSERT_EQ(left.count + right.count, node.count);
-      ASSERT_LE(left.extent, node.extent);
-    }
-    for (const int count : seen) ASSERT_EQ(count, 1);
-  }
-}
-
 }  // namespace
 }  // namespace kios::testing

@@ -21,20 +21,6 @@ TEST(TriangleClasses, AreNamedApart) {
   EXPECT_GE(names.size(), 50u);
 }
 
-TEST(TriangleClasses, AreFiniteAndSeeded) {
-  for (std::size_t c = 0; c < triangleClasses().size(); ++c) {
-    const auto pairs = trianglePairs(c, 50, 1), again = trianglePairs(c, 50, 1);
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      EXPECT_LE(magnitude(pairs[i]), 1e300) << triangleClasses()[c].name;
-      for (int k = 0; k < 3; ++k) {
-        EXPECT_TRUE(pairs[i].a[k].allFinite() && pairs[i].b[k].allFinite());
-        EXPECT_EQ(pairs[i].a[k], again[i].a[k]);
-        EXPECT_EQ(pairs[i].b[k], again[i].b[k]);
-      }
-    }
-  }
-}
-
 // Contacts named exact are contacts, and gaps are gaps: rounding took nothing from them.
 TEST(TriangleClasses, ExactContactsAndGaps) {
   const std::set<std::string> contacts = {

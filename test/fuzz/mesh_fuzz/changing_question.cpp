@@ -32,10 +32,7 @@ using Object = fcl::CollisionObjectd;
 
 class ChangingQuestion {
  public:
-  explicit ChangingQuestion(const Case& c) : random_(c.draw), case_(c) {
-    for (const Mesh& mesh : c.meshes) {
-      for (const Vector3d& p : mesh.vertices) size_ = std::max(size_, p.norm());
-    }
+  explicit ChangingQuestion(const Case& c) : random_(c.draw), case_(c), size_(reachOf(c.meshes)) {
     if (size_ == 0) size_ = 1;
     for (std::size_t m = 0; m < c.meshes.size(); ++m) {
       if (m == 2 && addOther()) continue;
@@ -101,14 +98,9 @@ class ChangingQuestion {
 
   /// Marks the model as a solid, unless it is none.
   bool mark(Modeld& model) {
-    try {
-      markSolid(model);
-      call_ += " marked,";
-      return true;
-    } catch (const std::invalid_argument&) {
-      unmarkSolid(model);
-      return false;
-    }
+    const bool marked = markIfSolid(model);
+    if (marked) call_ += " marked,";
+    return marked;
   }
 
   /// Adds a shape or an octree; returns false for a mesh.
@@ -228,12 +220,12 @@ class ChangingQuestion {
 
   Random random_;
   const Case& case_;
+  double size_;
   std::vector<std::unique_ptr<Object>> objects_;
   std::vector<std::function<void()>> changes_;  ///< of each object's geometry, in place
   SceneDistanced scene_;
   ManagerQueryd query_;
   std::map<Ids, double> truth_;
-  double size_ = 0;
   std::string call_;
 };
 

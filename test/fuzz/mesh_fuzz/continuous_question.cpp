@@ -21,8 +21,7 @@ class ContinuousQuestion {
     // Quaternions take the place of matrices that are rotations to a few digits only.
     for (const auto& frame : case_.frames) {
       for (const Transform3d& X : frame) {
-        const Eigen::Matrix3d R = X.linear();
-        if ((R.transpose() * R - Eigen::Matrix3d::Identity()).norm() > 1e-14) return std::nullopt;
+        if (skewOf(X) > 1e-14) return std::nullopt;
       }
     }
     // A spline that stands still gets the static answer, its samples round anew each time.

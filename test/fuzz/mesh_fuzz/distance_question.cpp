@@ -15,13 +15,6 @@ namespace {
 template <typename S>
 using Result = fcl::DistanceResult<S>;
 
-/// |E| of a pose: R^T R - I.
-template <typename S>
-double skewOf(const fcl::Transform3<S>& X) {
-  const fcl::Matrix3d R = X.linear().template cast<double>();
-  return (R.transpose() * R - fcl::Matrix3d::Identity()).norm();
-}
-
 template <typename S>
 class DistanceQuestion {
  public:

@@ -32,23 +32,15 @@ namespace {
 
 using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
 
-bool isRotation(const Transform3d& X) {
-  const Eigen::Matrix3d R = X.linear();
-  return (R.transpose() * R - Eigen::Matrix3d::Identity()).norm() <= 1e-14;
-}
-
 class LinkageQuestion {
  public:
-  explicit LinkageQuestion(const Case& c) : random_(c.draw), case_(c) {
-    for (const Mesh& mesh : c.meshes) {
-      for (const Vector3d& p : mesh.vertices) size_ = std::max(size_, p.norm());
-    }
+  explicit LinkageQuestion(const Case& c) : random_(c.draw), case_(c), size_(reachOf(c.meshes)) {
     if (size_ == 0) size_ = 1;
   }
 
   Verdict run() {
     for (const Transform3d& X : case_.frames[0]) {
-      if (!isRotation(X)) return std::nullopt;
+      if (skewOf(X) > 1e-14) return std::nullopt;
     }
     buildChain();
     for (std::size_t i = 1; i < case_.meshes.size(); ++i) addObstacle(i);
@@ -136,10 +128,7 @@ class LinkageQuestion {
 
   void add(int link, std::shared_ptr<fcl::CollisionGeometryd> geometry, const Transform3d& X_LB) {
     if (auto* const model = dynamic_cast<Modeld*>(geometry.get()); model && chance(random_, 0.5)) {
-      try {
-        markSolid(*model);
-      } catch (const std::invalid_argument&) {  // not closed
-      }
+      markIfSolid(*model);
     }
     linkage_.addBody(link, geometry, X_LB);
     bodies_.emplace_back(link, std::move(geometry));
@@ -208,11 +197,11 @@ class LinkageQuestion {
 
   Random random_;
   const Case& case_;
+  double size_;
   Linkage linkage_;
   std::vector<std::pair<int, Geometry>> bodies_;  ///< link and geometry
   std::vector<double> units_;                     ///< of the coordinates
   Eigen::VectorXd middle_, q0_, q1_;
-  double size_ = 0;
   std::string call_;
 };
 

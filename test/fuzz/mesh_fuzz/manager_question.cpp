@@ -27,20 +27,20 @@ double distanceOf(const Object* a, const Object* b) {
 
 class ManagerQuestion {
  public:
-  explicit ManagerQuestion(const Case& c) : random_(c.draw), case_(c) {
+  explicit ManagerQuestion(const Case& c) : random_(c.draw), case_(c), reach_(reachOf(c.meshes)) {
     for (std::size_t m = 0; m < c.meshes.size(); ++m) {
       const auto model = modelOf<double>(c.meshes[m], c.foreign);
       model->computeLocalAABB();
       objects_.push_back(std::make_unique<Object>(model, c.pose(m)));
       manager_.registerObject(objects_.back().get());
-      for (const Vector3d& p : c.meshes[m].vertices) reach_ = std::max(reach_, p.norm());
       for (const auto& frame : c.frames) {
         reach_ = std::max(reach_, frame[m].translation().norm());
-        const Eigen::Matrix3d R = frame[m].linear();
-        const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-        skew_ = std::max(skew_, (R.transpose() * R - I).norm());
+        skew_ = std::max(skew_, skewOf(frame[m]));
         // What FCL's CollisionObject::computeAABB() takes for no rotation.
-        if (R.isIdentity()) ignored_ = std::max(ignored_, (R - I).norm());
+        const Eigen::Matrix3d R = frame[m].linear();
+        if (R.isIdentity()) {
+          ignored_ = std::max(ignored_, (R - Eigen::Matrix3d::Identity()).norm());
+        }
       }
     }
     manager_.setup();
@@ -118,7 +118,7 @@ class ManagerQuestion {
   std::vector<std::unique_ptr<Object>> objects_;
   fcl::DynamicAABBTreeCollisionManagerd manager_;
   ManagerQuery<double> query_;
-  double reach_ = 0, skew_ = 0, ignored_ = 0;
+  double reach_, skew_ = 0, ignored_ = 0;
 };
 
 }  // namespace

@@ -25,12 +25,7 @@ struct Placed {
 std::shared_ptr<Modeld> marked(const Mesh& mesh, bool foreign) {
   auto model = modelOf<double>(mesh, foreign);
   if (!(model->getBV(0).bv.radius0 > 1e-80)) return nullptr;
-  try {
-    markSolid(*model);
-  } catch (const std::invalid_argument&) {  // not closed
-    return nullptr;
-  }
-  return model;
+  return markIfSolid(*model) ? model : nullptr;
 }
 
 /// Returns the mesh as a solid, or tetrahedra on its first triangles, which may cross; null if
@@ -68,8 +63,7 @@ double toleranceOf(const Placed& a, const Placed& b, double of_skew = 400) {
       most = std::max(most, part->model->vertices[i].stableNorm());
     }
     most = std::max(most, part->X.translation().stableNorm());
-    const Eigen::Matrix3d R = part->X.linear();
-    skew += (R.transpose() * R - Eigen::Matrix3d::Identity()).norm();
+    skew += skewOf(part->X);
   }
   return (2e-11 + of_skew * skew) * most + 1e-300;
 }

@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 
 #include "fcl_kios/model.h"
+#include "fcl_kios/solids.h"
 #include "fuzz/mesh_fuzz/brute_force.h"
 #include "scenes/foreign_fitter.h"
 
@@ -27,6 +30,34 @@ std::shared_ptr<Model<S>> modelOf(const Mesh& mesh, bool foreign) {
   model->addSubModel(vertices, mesh.triangles);
   model->endModel();
   return model;
+}
+
+/// Marks the model as a solid, unless it is none; returns whether it is.
+template <typename S>
+bool markIfSolid(Model<S>& model) {
+  try {
+    markSolid(model);
+    return true;
+  } catch (const std::invalid_argument&) {
+    unmarkSolid(model);
+    return false;
+  }
+}
+
+/// Returns how far the vertices reach from their origin.
+inline double reachOf(const std::vector<Mesh>& meshes) {
+  double reach = 0;
+  for (const Mesh& mesh : meshes) {
+    for (const Vector3d& p : mesh.vertices) reach = std::max(reach, p.norm());
+  }
+  return reach;
+}
+
+/// |E| of a pose: R^T R - I.
+template <typename S>
+double skewOf(const fcl::Transform3<S>& X) {
+  const fcl::Matrix3d R = X.linear().template cast<double>();
+  return (R.transpose() * R - fcl::Matrix3d::Identity()).norm();
 }
 
 /// Holds the first two meshes of a case as models, at their poses of a frame.
@@ -115,11 +146,7 @@ std::optional<std::string> faultOfPoints(const BruteForce<S>& truth, const std::
   const double L = truth.extentOf(ids);
   // Points of triangles are right to 16 eps L; a matrix that is no rotation skews what its
   // transpose takes back.
-  const auto error = [](const fcl::Transform3<S>& X) {
-    const fcl::Matrix3d R = X.linear().template cast<double>();
-    return (R.transpose() * R - fcl::Matrix3d::Identity()).norm();
-  };
-  const double skew = 1.1 * (error(X_WA) + error(X_WB)) * most;
+  const double skew = 1.1 * (skewOf(X_WA) + skewOf(X_WB)) * most;
   const double bound = 32 * eps * (most + L) + 4 * least + skew;
   std::ostringstream words;
   const double apart = (p - q).template cast<double>().stableNorm();

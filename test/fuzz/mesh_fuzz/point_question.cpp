@@ -34,7 +34,7 @@ class PointQuestion {
     Eigen::VectorXd distances(kPoints);
     Eigen::VectorXi triangles(kPoints);
     nearestPoints(*model_, points, distances, nearest, triangles);
-    const bool is_solid = mark();
+    const bool is_solid = markIfSolid(*model_);
     const WindingTree tree(*model_);
     PointRequest request;
     if (!is_solid) request.winding = &tree;
@@ -87,16 +87,6 @@ class PointQuestion {
   }
 
  private:
-  bool mark() {
-    try {
-      markSolid(*model_);
-      return true;
-    } catch (const std::invalid_argument&) {  // not closed
-      unmarkSolid(*model_);
-      return false;
-    }
-  }
-
   /// On, near, within and far from the mesh.
   Vector3d draw() {
     const auto& t =

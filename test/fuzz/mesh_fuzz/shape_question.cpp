@@ -256,7 +256,7 @@ class ShapeQuestion {
   std::shared_ptr<fcl::CollisionGeometryd> geometry_;
   std::vector<Placed> triangles_;  ///< in the shape's frame
   /// |E| of the mesh's pose, which scales lengths.
-  const double skew_ = (X_.linear().transpose() * X_.linear() - Eigen::Matrix3d::Identity()).norm();
+  const double skew_ = skewOf(X_);
 };
 
 }  // namespace

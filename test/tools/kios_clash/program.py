@@ -305,30 +305,6 @@ class Program(unittest.TestCase):
                          [("left", True), ("right", True), ("far", True)])
         self.assertEqual(self.statuses(report), {frozenset(("left", "right")): "touch"})
 
-    def test_nodes_of_scenes_are_parts(self):
-        geometry = box().split("\n")
-        points = " ".join(line[2:] for line in geometry if line.startswith("v "))
-        faces = " ".join(str(int(i) - 1) for line in geometry if line.startswith("f ")
-                         for i in line[2:].split())
-        nodes = "".join('<node id="n%d" name="%s"><translate>%r 0 0</translate>'
-                        '<instance_geometry url="#g"/></node>' % (i, name, x)
-                        for i, (name, x) in enumerate([("left", 0), ("right", 0.5), ("left", 9)]))
-        scene = write("scene.dae", """<COLLADA><library_geometries><geometry id="g"><mesh>
-<source id="p"><float_array id="a" count="24">%s</float_array><technique_common>
-<accessor source="#a" count="8" stride="3"/></technique_common></source>
-<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-<polylist count="6"><input semantic="VERTEX" source="#v" offset="0"/><vcount>4 4 4 4 4 4</vcount>
-<p>%s</p></polylist></mesh></geometry></library_geometries><library_visual_scenes>
-<visual_scene id="s">%s</visual_scene></library_visual_scenes>
-<scene><instance_visual_scene url="#s"/></scene></COLLADA>""" % (points, faces, nodes))
-        status, out, err = run(scene, "--json")
-        if "need assimp" in err or "float" in err:
-            self.skipTest("COLLADA isn't read")
-        self.assertEqual(status, 1, err)
-        report = json.loads(out)
-        self.assertEqual([p["name"] for p in report["parts"]], ["left", "right", "left#2"])
-        self.assertEqual(self.statuses(report), {frozenset(("left", "right")): "overlap"})
-
 
 if __name__ == "__main__":
     os.makedirs(WORK, exist_ok=True)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Files become meshes, and pages hold them.
+// Pages hold what was inspected, and how tight its volumes are.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,35 +22,6 @@ namespace {
 Inspection inspected(const std::filesystem::path& file) {
   Progress progress(true);
   return inspect(file, true, progress);
-}
-
-TEST(Files, ObjAndStlAgree) {
-  const scenes::Mesh shape = scenes::knobbyTorus();
-  const Inspection stl = inspected(writeStl("torus.stl", shape));
-  const Inspection obj = inspected(writeObj("torus.obj", shape));
-  EXPECT_EQ(stl.mesh.triangles.size(), shape.triangles.size());
-  EXPECT_EQ(obj.mesh.triangles.size(), shape.triangles.size());
-  EXPECT_EQ(stl.defects.distinct_vertices, shape.vertices.size());
-  EXPECT_EQ(obj.defects.distinct_vertices, shape.vertices.size());
-  EXPECT_TRUE(stl.defects.surface.closed);
-  EXPECT_EQ(stl.nodes(), 2 * static_cast<int>(shape.triangles.size()) - 1);
-  EXPECT_EQ(stl.k[0] + stl.k[1] + stl.k[2], static_cast<std::size_t>(stl.nodes()));
-  EXPECT_GT(stl.prepared_bytes, 100 * shape.triangles.size());
-  EXPECT_TRUE(stl.box.isApprox(obj.box, 1e-6));
-}
-
-TEST(Files, ScenesAreFlattenedByTheirTransforms) {
-  // One triangle, placed twice: moved, and turned about z and doubled below a moved parent.
-  const Mesh mesh = files::readMesh(writeScene("scene.dae"));
-  EXPECT_EQ(mesh.parts, 2);
-  ASSERT_EQ(mesh.triangles.size(), 2u);
-  const fcl::Vector3d expected[2][3] = {{{10, 0, 0}, {11, 0, 0}, {10, 1, 0}},
-                                        {{0, 0, 5}, {0, 2, 5}, {-2, 0, 5}}};
-  for (int i = 0; i < 2; ++i) {
-    for (int c = 0; c < 3; ++c) {
-      EXPECT_LT((mesh.vertices[mesh.triangles[i][c]] - expected[i][c]).norm(), 1e-6) << i << c;
-    }
-  }
 }
 
 std::vector<float> floatsOf(const std::string& base64) {

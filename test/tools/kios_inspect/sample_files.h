@@ -56,30 +56,4 @@ inline std::filesystem::path writeObj(const std::string& name, const scenes::Mes
   return writeText(name, out.str());
 }
 
-/// Returns a Collada scene that calls z up: the triangle (0,0,0) (1,0,0) (0,1,0), moved by 10 along
-/// x, and turned by 90 degrees about z and doubled below a node that is moved by 5 along z.
-inline std::filesystem::path writeScene(const std::string& name) {
-  return writeText(name, R"(<?xml version="1.0"?>
-<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-  <asset><unit meter="1" name="meter"/><up_axis>Z_UP</up_axis></asset>
-  <library_geometries><geometry id="g" name="triangle"><mesh>
-    <source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array>
-      <technique_common><accessor source="#a" count="3" stride="3">
-        <param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
-      </accessor></technique_common></source>
-    <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-    <triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
-  </mesh></geometry></library_geometries>
-  <library_visual_scenes><visual_scene id="s" name="s">
-    <node id="moved"><matrix>1 0 0 10  0 1 0 0  0 0 1 0  0 0 0 1</matrix>
-      <instance_geometry url="#g"/></node>
-    <node id="parent"><matrix>1 0 0 0  0 1 0 0  0 0 1 5  0 0 0 1</matrix>
-      <node id="turned"><matrix>0 -2 0 0  2 0 0 0  0 0 2 0  0 0 0 1</matrix>
-        <instance_geometry url="#g"/></node></node>
-  </visual_scene></library_visual_scenes>
-  <scene><instance_visual_scene url="#s"/></scene>
-</COLLADA>
-)");
-}
-
 }  // namespace kios::inspect
