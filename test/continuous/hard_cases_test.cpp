@@ -11,11 +11,6 @@
 namespace kios::testing {
 namespace {
 
-Mesh scaled(Mesh mesh, double scale, const Vector3d& offset = Vector3d::Zero()) {
-  for (Vector3d& v : mesh.vertices) v = scale * v + offset;
-  return mesh;
-}
-
 Transform3d scaledPose(Transform3d X, double scale) {
   X.translation() *= scale;
   return X;
@@ -27,7 +22,8 @@ TEST(HardCases, AnyScale) {
   for (auto type : kMotionTypes) {
     double expected = -1;
     for (double scale : {1.0, 1e-6, 1e6, 1e-30, 1e30, 0x1p300, 0x1p-400, 0x1p-490}) {
-      const Pair pair(scaled(torus, scale), scaled(box, scale));
+      const Pair pair(transformed(torus, scale, Vector3d::Zero()),
+                      transformed(box, scale, Vector3d::Zero()));
       fcl::ContinuousCollisionResultd result;
       ContinuousCounts counts;
       firstContact(*pair.a, at(0, 0, 0), at(0, 0, 0, 1), *pair.b, scaledPose(at(5, 1, 2), scale),
@@ -84,25 +80,9 @@ TEST(HardCases, ASpinningWheelKeepsClear) {
     const Answer answer = ask(pair, spin, *still, 1e-4);
     EXPECT_FALSE(answer.result.is_collide) << gap;
     EXPECT_LT(answer.counts.steps, 3000) << gap;
-    expectRight(pair, spin, *still, answer.result, 1e-4, 500, 10);
+    expectRight({*pair.a, spin, *pair.b, *still}, answer.result, 1e-4, 500, 1e-7);
     std::printf("wheel, gap %g: %lld steps, %lld volume tests, %lld leaf tests\n", gap,
                 answer.counts.steps, answer.counts.volume_tests, answer.counts.leaf_tests);
-  }
-}
-
-// A curve above a table, turning about its normal.
-TEST(HardCases, ACurvedSlideTakesFewSteps) {
-  const Mesh table = scenes::subdividedBox({6, 6, 1}, 2), box = scenes::subdividedBox({1, 1, 1}, 2);
-  const Pair pair(table, box);
-  const Motion still = motionOf(fcl::CCDM_TRANS, at(0, 0, 0), at(0, 0, 0));
-  const Vector3d z = Vector3d::UnitZ();
-  for (double gap : {1e-3, 1e-6, 1e-9}) {
-    const double h = 1 + gap;
-    const fcl::SplineMotion<double> slide({-3, 0, h}, {-1, 2, h}, {1, -2, h}, {3, 1, h}, -1 * z,
-                                          2 * z, 9 * z, 10 * z);
-    const Answer answer = ask(pair, *still, slide, 1e-4);
-    EXPECT_FALSE(answer.result.is_collide) << gap;
-    EXPECT_LT(answer.counts.steps, 60) << gap;
   }
 }
 
@@ -123,7 +103,8 @@ TEST(HardCases, FreeModels) {
 TEST(HardCases, CostlyStepsReachTheEnd) {
   const Mesh soup = scenes::randomSoup(2000, 1, 1e-3, 2e-3, 5);
   const Pair pair(soup, scenes::moved(at(0, 0, 0, 0.7, {1, 2, 3}), soup));
-  const double distance = pair.oracle.distance(at(0, 0, 0), at(0, 0, 0));
+  const Motion rest = motionOf(fcl::CCDM_TRANS, at(0, 0, 0), at(0, 0, 0));
+  const double distance = Sampling{*pair.a, *rest, *pair.b, *rest}.distanceAt(0);
   ASSERT_GT(distance, 0);
   for (auto type : {fcl::CCDM_TRANS, fcl::CCDM_SPLINE}) {
     for (const double part : {1e-6, 1e-3, 0.1}) {

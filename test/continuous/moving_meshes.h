@@ -20,7 +20,6 @@
 namespace kios::testing {
 
 using Motion = std::shared_ptr<fcl::MotionBased>;
-using scenes::MeshOracle;
 
 inline constexpr fcl::CCDMotionType kMotionTypes[] = {fcl::CCDM_TRANS, fcl::CCDM_LINEAR,
                                                       fcl::CCDM_SCREW, fcl::CCDM_SPLINE};
@@ -66,7 +65,7 @@ inline Transform3d poseAt(const fcl::MotionBased& motion, double t) {
   return X;
 }
 
-/// Finds by samples of the time whether two geometries in motion touch.
+/// Holds two geometries in motion, to be asked by static queries at any time.
 struct Sampling {
   const fcl::CollisionGeometryd& first;
   const fcl::MotionBased& motion1;
@@ -78,17 +77,10 @@ struct Sampling {
     return fcl::collide(&first, poseAt(motion1, t), &second, poseAt(motion2, t),
                         fcl::CollisionRequestd(), contacts) > 0;
   }
-  /// Returns the first of n + 1 times at which they touch; 2 if there is none.
-  double firstOf(int n) const {
-    for (int k = 0; k <= n; ++k) {
-      if (touchAt(1.0 * k / n)) return 1.0 * k / n;
-    }
-    return 2;
-  }
-  bool touchWithin(double t, double length) const {
-    bool touch = false;
-    for (int k = 0; k <= 64 && !touch; ++k) touch = touchAt(std::min(1.0, t + length * k / 64));
-    return touch;
+  double distanceAt(double t) const {
+    fcl::DistanceResultd result;
+    return fcl::distance(&first, poseAt(motion1, t), &second, poseAt(motion2, t),
+                         fcl::DistanceRequestd(), result);
   }
 };
 
@@ -117,9 +109,8 @@ inline Motion motionOf(fcl::CCDMotionType type, const Transform3d& X_0, const Tr
 
 struct Pair {
   explicit Pair(const Mesh& mesh_a, const Mesh& mesh_b)
-      : a(kiosModel(mesh_a)), b(kiosModel(mesh_b)), oracle(mesh_a, mesh_b) {}
+      : a(kiosModel(mesh_a)), b(kiosModel(mesh_b)) {}
   std::shared_ptr<Modeld> a, b;
-  MeshOracle oracle;
 };
 
 struct Answer {
@@ -167,17 +158,15 @@ struct Outcomes {
   }
 };
 
-/// Checks an answer against the exact contacts at `samples` + 1 times: none before the time of
-/// contact, and one no later than toc_err after it. Contacts too short for the samples are looked
-/// for by distance: at the time of contact the pair must be as near as toc_err allows at most.
-inline void expectRight(const Pair& pair, const fcl::MotionBased& a, const fcl::MotionBased& b,
-                        const fcl::ContinuousCollisionResultd& result, double toc_err, int samples,
-                        double speed) {
-  const auto touching = [&](double t) { return pair.oracle.collide(poseAt(a, t), poseAt(b, t)); };
+/// Checks an answer against the contacts at `samples` + 1 times: none before the time of contact,
+/// and one no later than toc_err after it. Contacts too short for the samples are looked for by
+/// distance: at the time of contact the pair must be within `near`.
+inline void expectRight(const Sampling& at, const fcl::ContinuousCollisionResultd& result,
+                        double toc_err, int samples, double near) {
   double first = 2;
   for (int i = 0; i <= samples && first > 1; ++i) {
     const double t = static_cast<double>(i) / samples;
-    if (touching(t)) first = t;
+    if (at.touchAt(t)) first = t;
   }
   if (!result.is_collide) {
     EXPECT_EQ(first, 2) << "missed a contact";
@@ -187,14 +176,13 @@ inline void expectRight(const Pair& pair, const fcl::MotionBased& a, const fcl::
   const double toc = result.time_of_contact;
   EXPECT_GE(toc, 0);
   EXPECT_LE(toc, first) << "later than a contact";
-  EXPECT_TRUE(result.contact_tf1.isApprox(poseAt(a, toc), 1e-12));
-  EXPECT_TRUE(result.contact_tf2.isApprox(poseAt(b, toc), 1e-12));
+  EXPECT_TRUE(result.contact_tf1.isApprox(poseAt(at.motion1, toc), 1e-12));
+  EXPECT_TRUE(result.contact_tf2.isApprox(poseAt(at.motion2, toc), 1e-12));
   if (first <= toc + toc_err) return;
   for (int i = 0; i <= 64; ++i) {
-    if (touching(std::min(1.0, toc + toc_err * i / 64))) return;
+    if (at.touchAt(std::min(1.0, toc + toc_err * i / 64))) return;
   }
-  const double distance = pair.oracle.distance(poseAt(a, toc), poseAt(b, toc));
-  EXPECT_LE(distance, 1e-4 * toc_err * speed) << "no contact is near";
+  EXPECT_LE(at.distanceAt(toc), near) << "no contact is near";
 }
 
 }  // namespace kios::testing

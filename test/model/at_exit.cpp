@@ -12,36 +12,11 @@
 
 #include "fcl_kios/fcl_kios.h"
 #include "fcl_kios/paper.h"
+#include "scenes/shapes.h"
 
 namespace {
 
 using fcl::Vector3d;
-using Vertices = std::vector<Vector3d>;
-using Triangles = std::vector<fcl::Triangle>;
-
-/// Returns a sheet of 2 n n triangles, curved by `bend`.
-Vertices sheet(int n, double bend) {
-  Vertices vertices;
-  for (int i = 0; i <= n; ++i) {
-    for (int j = 0; j <= n; ++j) {
-      const double x = double(i) / n, y = double(j) / n;
-      vertices.emplace_back(x, y, bend * (x - 0.5) * (x - 0.5) + 0.1 * y * y);
-    }
-  }
-  return vertices;
-}
-
-Triangles sheetTriangles(int n) {
-  Triangles triangles;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      const std::size_t a = static_cast<std::size_t>(i) * (n + 1) + j, b = a + n + 1;
-      triangles.emplace_back(a, b, a + 1);
-      triangles.emplace_back(b, b + 1, a + 1);
-    }
-  }
-  return triangles;
-}
 
 void require(bool holds, const char* what) {
   if (holds) return;
@@ -67,8 +42,10 @@ double distanceTo(const kios::Modeld& a, const kios::Modeld& b) {
 
 /// Checks that distances are equal, in whatever way a model came to its shape.
 void useAll(int n) {
-  const Triangles triangles = sheetTriangles(n);
-  const Vertices flat = sheet(n, 0), bent = sheet(n, 0.7);
+  const kios::scenes::Mesh sheet = kios::scenes::sheet(1, 1, n, n, 0);
+  const auto& triangles = sheet.triangles;
+  const auto& flat = sheet.vertices;
+  const auto bent = kios::scenes::sheet(1, 1, n, n, 0.3).vertices;
   const auto other = kios::makeModel(flat, triangles);
   const double expected = distanceTo(*kios::makeModel(bent, triangles), *other);
   require(expected > 1 && expected < 2, "distance");

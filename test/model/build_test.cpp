@@ -10,12 +10,12 @@
 #include "fcl/mesh_cases.h"
 #include "model/bvh_check.h"
 #include "paper/all_fits.h"
+#include "scenes/foreign_fitter.h"
 
 namespace kios::testing {
 namespace {
 
 using fcl::detail::BVFitter;
-using fcl::detail::BVFitterBase;
 using fcl::detail::BVSplitter;
 using fcl::detail::BVSplitterBase;
 using fcl::detail::SplitMethodType;
@@ -36,30 +36,11 @@ void fill(Model<S>& model, const Mesh& mesh) {
 
 std::vector<Mesh> buildCases() {
   std::vector<Mesh> meshes;
-  for (const MeshCase& pair : meshCases()) {
-    meshes.push_back(pair.a);
-    meshes.push_back(pair.b);
-  }
-  meshes.push_back(scenes::soup(scenes::bumpyTorus(140)));
-  meshes.push_back(scenes::uvSphere(1, 20, 40));
-  meshes.push_back(scenes::sheet(1, 1, 9, 9, 0));
-  meshes.push_back(scenes::merged({meshes[0], transformed(meshes[1], 1, {50, -20, 7})}));
-  Mesh duplicates = scenes::icosphere(1, 1);  // each triangle three times
-  for (int i = 0; i < 160; ++i) duplicates.triangles.push_back(duplicates.triangles[i]);
-  meshes.push_back(duplicates);
+  for (const MeshCase& pair : meshCases()) meshes.insert(meshes.end(), {pair.a, pair.b});
+  for (const NamedMesh& named : unitMeshes()) meshes.push_back(named.mesh);
   Mesh concentric;  // all centroids at the origin, exactly
-  for (int i = 1; i <= 40; ++i) {
-    const std::size_t first = concentric.vertices.size();
-    concentric.vertices.insert(concentric.vertices.end(),
-                               {Vector3d(i, 0, i), Vector3d(-i, i, 0), Vector3d(0, -i, -i)});
-    concentric.triangles.emplace_back(first, first + 1, first + 2);
-  }
+  for (double r = 1; r <= 40; ++r) addTriangle(concentric, {r, 0, r}, {-r, r, 0}, {0, -r, -r});
   meshes.push_back(concentric);
-  meshes.push_back(repeated(65));
-  Mesh points;  // triangles without extent
-  for (int i = 0; i < 9; ++i) points.vertices.emplace_back(i / 3, i / 3, -i / 3);
-  points.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {0, 3, 6}, {0, 0, 0}};
-  meshes.push_back(points);
   return meshes;
 }
 
@@ -94,6 +75,12 @@ TEST(Build, OffsetAndScaledMeshes) {
   }
 }
 
+TEST(Build, FittersOfNoAngleAreRefused) {
+  FitOptions options;
+  options.angle = 0;
+  EXPECT_THROW(PaperFitter<double>{options}, std::invalid_argument);
+}
+
 // Crowded at one end, where median, mean and centre are far apart.
 TEST(Build, EachSplitterSplitsWhereItSays) {
   constexpr int kCount = 200;
@@ -114,29 +101,6 @@ TEST(Build, EachSplitterSplitsWhereItSays) {
   EXPECT_EQ(largerPart(fcl::detail::SPLIT_METHOD_MEDIAN), kCount / 2);
   EXPECT_NEAR(largerPart(fcl::detail::SPLIT_METHOD_MEAN), std::pow(0.2, 0.25) * kCount, 3);
   EXPECT_NEAR(largerPart(fcl::detail::SPLIT_METHOD_BV_CENTER), std::pow(0.5, 0.25) * kCount, 3);
-}
-
-TEST(Build, SplittersDifferAndBalance) {
-  const Mesh mesh = scenes::bumpyTorus(1000);
-  for (const SplitMethodType split : kSplits) {
-    Modeld model;
-    model.bv_splitter.reset(new BVSplitter<kIOSd>(split));
-    fill(model, mesh);
-    const int left = model.getBV(model.getBV(0).leftChild()).num_primitives;
-    EXPECT_GT(left, 0.3 * model.num_tris);
-    EXPECT_LT(left, 0.7 * model.num_tris);
-    if (split == fcl::detail::SPLIT_METHOD_MEDIAN) {
-      EXPECT_NEAR(left, 0.5 * model.num_tris, 2);
-    }
-  }
-  Modeld tuned, published;
-  fill(tuned, mesh);
-  published.bv_fitter.reset(new PaperFitter<double>(FitMethod::kMethodII));
-  fill(published, mesh);
-  EXPECT_FALSE(sameTree(tuned, published));
-  FitOptions options;
-  options.angle = 0;
-  EXPECT_THROW(PaperFitter<double>{options}, std::invalid_argument);
 }
 
 TEST(Build, LocalBoxIsThatOfTheVertices) {
@@ -208,35 +172,7 @@ TEST(Build, ModelsSplitByCostUnlessTheyAreTold) {
   EXPECT_NE(leftCount(by_mean), left);
 }
 
-// A fitter and a splitter as a user may write them.
-class OwnFitter final : public BVFitterBase<kIOSd> {
- public:
-  void set(Vector3d* vertices, fcl::Triangle* triangles, fcl::BVHModelType) override {
-    vertices_ = vertices;
-    triangles_ = triangles;
-  }
-  void set(Vector3d* vertices, Vector3d*, fcl::Triangle* triangles, fcl::BVHModelType) override {
-    vertices_ = vertices;
-    triangles_ = triangles;
-  }
-  kIOSd fit(unsigned int* primitives, int n) override {
-    std::vector<Vector3d> points;
-    for (int i = 0; i < n; ++i) {
-      for (int corner = 0; corner < 3; ++corner) {
-        points.push_back(vertices_[triangles_[primitives[i]][corner]]);
-      }
-    }
-    kIOSd bv;
-    kios::fit(points.data(), static_cast<int>(points.size()), bv);
-    return bv;
-  }
-  void clear() override { vertices_ = nullptr; }
-
- private:
-  Vector3d* vertices_ = nullptr;
-  fcl::Triangle* triangles_ = nullptr;
-};
-
+// A splitter as a user may write it.
 class SplitAtCenterAlongX final : public BVSplitterBase<kIOSd> {
  public:
   void set(Vector3d*, fcl::Triangle*, fcl::BVHModelType) override {}
@@ -255,7 +191,7 @@ TEST(Build, UsersFittersAndSplittersMix) {
     for (const bool own_splitter : {false, true}) {
       Modeld a, b;
       for (Modeld* model : {&a, &b}) {
-        if (own_fitter) model->bv_fitter = std::make_shared<OwnFitter>();
+        if (own_fitter) model->bv_fitter = std::make_shared<scenes::ForeignFitter<kIOSd>>();
         if (own_splitter) model->bv_splitter = std::make_shared<SplitAtCenterAlongX>();
       }
       fill(a, pair.a);

@@ -308,19 +308,6 @@ TEST_F(Memory, Scenes) {
     return objects.closestPair()->distance == expected;
   };
   EXPECT_GT(exhaust(scene, [&] { expectRight(*model, mesh_.vertices); }), 10);
-
-  fcl::CollisionObjectd a(model, far_.X_WA), b(other_, far_.X_WB);
-  const auto managed = [&] {
-    fcl::DynamicAABBTreeCollisionManagerd manager;
-    manager.registerObject(&a);
-    manager.registerObject(&b);
-    manager.setup();
-    ManagerQuery<double> query;
-    query.findClosest();
-    manager.distance(&query, ManagerQuery<double>::callback);
-    return query.pairs().at(0).distance == expected;
-  };
-  EXPECT_TRUE(managed());
 }
 
 // A scene in which memory ran out is as good as before.

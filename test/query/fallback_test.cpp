@@ -34,10 +34,7 @@ double beyondFloats(int i) {
   return std::ldexp(1.0, (i % 2 == 0 ? 1 : -1) * (sizeof(S) == sizeof(double) ? 300 : 48));
 }
 
-Mesh scaled(Mesh mesh, double by) {
-  for (auto& p : mesh.vertices) p *= by;
-  return mesh;
-}
+Mesh scaled(const Mesh& mesh, double by) { return transformed(mesh, by, fcl::Vector3d::Zero()); }
 
 /// Two small soups of such lengths; edges are of `size` to 100 times that.
 template <typename S>

@@ -22,10 +22,8 @@ using Long3 = Eigen::Matrix<long double, 3, 1>;
 using LongMatrix3 = Eigen::Matrix<long double, 3, 3>;
 
 template <typename S>
-fcl::Vector3<S> randomPoint(scenes::Random& random, double size) {
-  return fcl::Vector3d(random.uniform(-size, size), random.uniform(-size, size),
-                       random.uniform(-size, size))
-      .cast<S>();
+fcl::Vector3<S> randomPoint(Random& random, double size) {
+  return (size * inCube(random)).cast<S>();
 }
 
 /// Returns the point as a mesh: a degenerate triangle, three times.

@@ -16,11 +16,11 @@
 #include <vector>
 
 #include "fcl/expect_refused.h"
-#include "model/deform.h"
+#include "fcl/mesh_cases.h"
 #include "not_finite.h"
+#include "query/hard_points.h"
 #include "scalars.h"
 #include "scenes/rational_oracle.h"
-#include "scenes/triangle_families.h"
 #include "scenes/triangle_pair.h"
 #include "shapes.h"
 
@@ -36,38 +36,6 @@ std::vector<NamedMesh> nastyMeshes() {
           {"soup", scenes::randomSoup(120, 1, 1e-4, 2, 3)},
           {"points, segments, triangles", degenerateMesh(90, 3, 1)},
           {"point", scenes::singleTriangle({1, 2, 3}, {1, 2, 3}, {1, 2, 3})}};
-}
-
-/// On, near and far from the mesh, and at the same distance from many of its parts.
-Columns pointsAbout(const Mesh& mesh, int count, double size, const Vector3d& offset,
-                    std::uint64_t seed) {
-  Random random(seed);
-  Columns points(3, count);
-  for (int i = 0; i < count; ++i) {
-    const auto& t = mesh.triangles[static_cast<std::size_t>(
-        scenes::integer(random, 0, static_cast<int>(mesh.triangles.size()) - 1))];
-    const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    switch (i % 6) {
-      case 0:
-        points.col(i) = a;
-        break;
-      case 1:
-        points.col(i) = 0.5 * (b + c);
-        break;
-      case 2:
-        points.col(i) = (a + b + c) / 3 + 1e-9 * size * inCube(random);
-        break;
-      case 3:
-        points.col(i) = offset + size * scenes::displacement(random, 1, 60);
-        break;
-      case 4:
-        points.col(i) = offset;
-        break;
-      default:
-        points.col(i) = offset + 1.5 * size * inCube(random);
-    }
-  }
-  return points;
 }
 
 struct Answers {
@@ -176,19 +144,6 @@ TEST(NearestPointsOfMeshes, TheFirstOfEqualTriangles) {
     };
     while (!holds(mesh.triangles[static_cast<std::size_t>(first)])) ++first;
     ASSERT_EQ(answers.triangles[i], first);
-  }
-}
-
-TEST(NearestPointsOfMeshes, OfModelsThatChange) {
-  const Mesh mesh = scenes::bumpyTorus(200);
-  for (const bool refit : {true, false}) {
-    const auto model = kiosModel(mesh);
-    for (double phase = 0.5; phase < 2; phase += 0.5) {
-      replace(*model, swayed(mesh, phase), refit, refit);
-      expectNearest(*model, pointsAbout(mesh, 30, 1, {0, 0, 0}, 3), "swayed");
-    }
-    model->beginReplaceModel();
-    EXPECT_THROW(nearestPoint(*model, {0, 0, 0}), std::invalid_argument);
   }
 }
 
@@ -318,6 +273,8 @@ TEST(NearestPointsOfMeshes, BadArgumentsAreNamed) {
   expectRefused([&] { nearestPoints(*model, points, distances, few.nearest, few.triangles); },
                 "nearest points has room for 3");
   EXPECT_EQ(nearestOf(*model, Columns(3, 0)).distances.size(), 0);
+  model->beginReplaceModel();
+  EXPECT_THROW(nearestPoint(*model, {0, 0, 0}), std::invalid_argument);
 }
 
 }  // namespace

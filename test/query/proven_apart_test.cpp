@@ -39,24 +39,6 @@ struct Told {
   long wrong = 0, apart = 0, told = 0;
 };
 
-Real pointToSegment(const RealVec& p, const RealVec& a, const RealVec& b) {
-  const RealVec d = b - a;
-  const Real square = d.squaredNorm();
-  const Real s = square > 0 ? std::clamp<Real>((p - a).dot(d) / square, 0, 1) : 0;
-  return (p - (a + s * d)).norm();
-}
-
-Real segmentDistance(const RealVec (&p)[2], const RealVec (&q)[2]) {
-  Real best = std::min({pointToSegment(p[0], q[0], q[1]), pointToSegment(p[1], q[0], q[1]),
-                        pointToSegment(q[0], p[0], p[1]), pointToSegment(q[1], p[0], p[1])});
-  const RealVec d = p[1] - p[0], e = q[1] - q[0], n = d.cross(e), w = q[0] - p[0];
-  const Real square = n.squaredNorm();
-  if (!(square > 0)) return best;
-  const Real s = w.cross(e).dot(n) / square, t = w.cross(d).dot(n) / square;
-  if (s >= 0 && s <= 1 && t >= 0 && t <= 1) best = std::min(best, std::abs(w.dot(n)) / n.norm());
-  return best;
-}
-
 Vector3d direction(Random& random) { return inCube(random).normalized(); }
 
 /// Turns at random, about an axis by a quarter at times, and sheared by up to `shear`.
@@ -111,7 +93,7 @@ TYPED_TEST(ProvenApart, BoundsTheDistanceOfSegments) {
       q[k] = R_AW *
              (X_WB.linear().template cast<Real>() * b->vertices[k].template cast<Real>() + between);
     }
-    const Real distance = segmentDistance(p, q);
+    const Real distance = scenes::triangleDistance({p[0], p[1], p[1]}, {q[0], q[1], q[1]});
     const MeshPair pair(meshOf(*a), X_WA, meshOf(*b), X_WB);
     const double best = pair.rootBound(kInfinity), any = pair.rootBound(0);
     sum.wrong += Real{best} > distance || Real{any} > distance || (any > 0) != (best > 0);

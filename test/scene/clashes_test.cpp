@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// findClashes() against arithmetic for boxes, and against queries of every pair for other meshes.
+// findClashes() against arithmetic for boxes; mesh_fuzz compares it with queries of every pair of
+// other meshes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -151,71 +152,6 @@ TEST(Clashes, OfBoxesAreThoseOfArithmeticAtEveryPlace) {
     expectEqual(findClashes(parts, request), clashes);
   }
   EXPECT_EQ(seen.size(), 5u);  // every status
-}
-
-TEST(Clashes, OfMeshesAreThoseOfQueriesOfEachPair) {
-  std::vector<std::shared_ptr<const Modeld>> models;
-  for (const NamedMesh& named : solidMeshes()) models.push_back(solidOf(named.mesh));
-  models.push_back(modelOf(scenes::sheet(3, 3, 8, 8, 0.3)));
-  models.push_back(modelOf(scenes::randomSoup(60, 1, 0.1, 0.5, 3)));
-  for (int round = 0; round < casesOr(3); ++round) {
-    ClashRequest request;
-    request.touch = 1e-4;
-    request.clearance = 0.2;
-    const auto poses = scenes::randomPoses(30, 3, 17 + static_cast<std::uint64_t>(round));
-    Parts parts;
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      parts.push_back(partOf(models[i % models.size()], poses[i], i));
-    }
-    const auto found = byPair(findClashes(parts, request));
-    for (std::size_t a = 0; a < parts.size(); ++a) {
-      for (std::size_t b = a + 1; b < parts.size(); ++b) {
-        SCOPED_TRACE(std::to_string(a) + " and " + std::to_string(b));
-        const auto& model_a = static_cast<const Modeld&>(*parts[a].geometry);
-        const auto& model_b = static_cast<const Modeld&>(*parts[b].geometry);
-        const fcl::Transform3d X_a(parts[a].X_WP), X_b(parts[b].X_WP);
-        const double apart = distanceBracket(model_a, X_a, model_b, X_b).distance;
-        const auto clash = found.find({a, b});
-        // Whether a corner of one lies in the other, far from its surface.
-        const auto holds = [](const Modeld& outer, const fcl::Transform3d& X_o, const Modeld& inner,
-                              const fcl::Transform3d& X_i) {
-          for (int v = 0; isSolid(outer) && v < inner.num_vertices; ++v) {
-            if (contains(outer, X_o, X_i * inner.vertices[v])) return true;
-          }
-          return false;
-        };
-        const bool contained =
-            holds(model_a, X_a, model_b, X_b) || holds(model_b, X_b, model_a, X_a);
-        if (apart > request.clearance && !contained) {
-          EXPECT_EQ(clash, found.end());
-          continue;
-        }
-        ASSERT_NE(clash, found.end());
-        const ClashResult& got = clash->second;
-        if (!contained && apart > 0) {
-          EXPECT_EQ(got.status,
-                    apart <= request.touch ? ClashStatus::kTouch : ClashStatus::kClearance);
-          EXPECT_LE(got.lower, apart);
-          EXPECT_GE(got.upper, apart);
-        } else if (isSolid(model_a) && isSolid(model_b)) {
-          LocalDepthRequest rough;
-          rough.rel_err = 0.1;
-          rough.max_pieces = 3000;
-          const LocalDepthResult depth = localDepth(model_a, X_a, model_b, X_b, rough);
-          EXPECT_LE(got.lower, depth.upper);
-          EXPECT_GE(got.upper, depth.lower);
-          EXPECT_TRUE(got.deep);
-          const bool touches = got.status == ClashStatus::kTouch;
-          EXPECT_FALSE(touches && depth.lower > request.touch);
-          EXPECT_TRUE(touches || apart > 0 || depth.upper > request.touch);
-          EXPECT_FALSE(got.status == ClashStatus::kInside && apart == 0);
-        } else {
-          EXPECT_TRUE(got.status == ClashStatus::kOverlap || got.status == ClashStatus::kInside);
-          EXPECT_EQ(got.upper, std::numeric_limits<double>::infinity());
-        }
-      }
-    }
-  }
 }
 
 }  // namespace

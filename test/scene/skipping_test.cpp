@@ -8,7 +8,8 @@
 
 #include <limits>
 
-#include "scene/random_scene.h"
+#include "fcl_kios/scene.h"
+#include "model/deform.h"
 #include "scenes/robots.h"
 #include "together.h"
 
@@ -100,31 +101,6 @@ TEST(SceneSkipping, MemoryIsBoundedByWhatComesNear) {
   EXPECT_LE(scene.rememberedPairs(), 1024u);
 }
 
-TEST(SceneSkipping, DeformationsOfWhatStandsStillAreNoticed) {
-  for (const int deforming : {0, 1}) {
-    Row row(2, 2);
-    const Mesh mesh = scenes::icosphere(0.5, 2);
-    for (int frame = 0; frame < 12; ++frame) {
-      auto vertices = mesh.vertices;
-      for (Vector3d& p : vertices) p *= 1 + 0.1 * (frame % 5);
-      if (frame % 3 == 1) {
-        update(*row.models[deforming], vertices, frame % 2 == 0, true);
-      } else if (frame > 0) {
-        row.models[deforming] = scenes::buildModel<kIOSd>({vertices, mesh.triangles});
-        row.scene.remove(deforming);
-        ASSERT_EQ(row.scene.add(row.models[deforming], at(2 * deforming)), deforming);
-      }
-      fcl::DistanceResultd result;
-      const double exact = fcl::distance(row.models[0].get(), at(0), row.models[1].get(), at(2),
-                                         fcl::DistanceRequestd(), result);
-      EXPECT_EQ(row.scene.closestPair()->distance, exact) << frame;
-      EXPECT_EQ(row.scene.clearances()[0].distance, exact) << frame;
-      EXPECT_EQ(row.scene.pairsWithin(std::nextafter(exact, 0.0)).size(), 0u) << frame;
-      EXPECT_EQ(row.scene.pairsWithin(exact).size(), 1u) << frame;
-    }
-  }
-}
-
 TEST(SceneSkipping, ObstaclesAreNotAskedAboutEachOther) {
   SceneDistance<double> scene;
   const auto model = kiosModel(scenes::icosphere(0.5, 1));
@@ -203,38 +179,6 @@ TEST(SceneRefuses, BadInput) {
   EXPECT_EQ(closest->a, id);
   EXPECT_EQ(closest->b, far);
   EXPECT_EQ(closest->distance, 0);
-}
-
-TEST(SceneOf, ShapesOfFclEqualBruteForce) {
-  SceneDistance<double> scene;
-  std::vector<std::shared_ptr<fcl::CollisionGeometryd>> shapes = {
-      std::make_shared<fcl::Sphered>(0.5), std::make_shared<fcl::Boxd>(1, 0.4, 0.6),
-      std::make_shared<fcl::Capsuled>(0.2, 1), std::make_shared<fcl::Sphered>(0.2)};
-  for (const auto& shape : shapes) scene.add(shape, at(0));
-  for (int frame = 0; frame < 200; ++frame) {
-    const auto poses = scenes::randomPoses(4, 2, frame / 2);  // every other stands still
-    for (int i = 0; i < 4; ++i) scene.move(i, poses[i]);
-    if (frame == 100) {
-      std::static_pointer_cast<fcl::Sphered>(shapes[3])->radius = 0.6;
-      scene.changed(3);
-    }
-    double least = 1e300;
-    int within = 0;
-    for (int a = 0; a < 4; ++a) {
-      for (int b = a + 1; b < 4; ++b) {
-        fcl::DistanceResultd result;
-        const double d = fcl::distance(shapes[a].get(), poses[a], shapes[b].get(), poses[b],
-                                       fcl::DistanceRequestd(), result);
-        least = std::min(least, d);
-        within += d < 0.5 ? 1 : 0;
-      }
-    }
-    EXPECT_EQ(scene.closestPair()->distance, least) << frame;
-    EXPECT_EQ(static_cast<int>(scene.pairsWithin(0.5).size()), within) << frame;
-    if (frame % 2 == 1 && frame != 101) {
-      EXPECT_EQ(scene.counts().queried, 0) << frame;
-    }
-  }
 }
 
 }  // namespace

@@ -65,24 +65,13 @@ class Auditor final : public engine::Audit {
   long least_triangles = 0;  ///< pairs with a triangle of a leaf that is split
 
  private:
-  /// All pairs of triangles in the common frame.
   void measure() {
-    const std::size_t n = posed_.a.triangles.size(), m = posed_.b.triangles.size();
-    distances_.resize(n * m);
-    nearest_ = std::numeric_limits<double>::infinity();
-    std::vector<TriangleVertices<double>> of_b(m);
-    for (std::size_t j = 0; j < m; ++j) of_b[j] = posed_.pair().triangleB(static_cast<int>(j));
-    for (std::size_t i = 0; i < n; ++i) {
-      const TriangleVertices<double> p = posed_.pair().triangleA(static_cast<int>(i));
-      for (std::size_t j = 0; j < m; ++j) {
-        const auto found = triangleDistance(p, of_b[j]);
-        distances_[i * m + j] = found.distance;
-        if (found.distance >= nearest_) continue;
-        nearest_ = found.distance;
-        gap_ = found.point_b - found.point_a;
-        size_ = extentOf(p, of_b[j]);
-      }
-    }
+    const AllPairs all = posed_.all();
+    const auto nearest = posed_.pair().distanceOf({all.nearest.first, all.nearest.second});
+    distances_ = all.distances;
+    nearest_ = all.distance;
+    gap_ = nearest.point_b - nearest.point_a;
+    size_ = all.extent;
   }
 
   /// Returns the triangles of a node, or one of a leaf that stands for it.
@@ -229,26 +218,15 @@ TYPED_TEST(AuditOf, UnlikeMeshes) {
   this->audit(scenes::sheet(2, 2, 3, 3, 0), fine, 1, 10, 1, 30, 0, false, 20);
 }
 
-TYPED_TEST(AuditOf, UnlikeParallelSheets) {
-  auditSheets<TypeParam>(fcl::Vector3d::Zero(), 1, true);
-  for (const double e : {-2.8e-5, 2.8e-5})
-    auditSheets<TypeParam>(fcl::Vector3d::Zero(), 1 + e, true);
-  const double far = this->kDouble ? 0x1p37 : 0x1p8;
-  auditSheets<TypeParam>(far * fcl::Vector3d(1, -0.7, 0.9), 1, true);
-}
-
-TYPED_TEST(AuditOf, ParallelSheets) { auditSheets<TypeParam>(fcl::Vector3d::Zero(), 1); }
-
-// The largest stretch that passes for a rotation, or nearly so.
-TYPED_TEST(AuditOf, StretchedSheets) {
-  for (const double e : {-2.8e-5, 2.8e-5}) auditSheets<TypeParam>(fcl::Vector3d::Zero(), 1 + e);
-}
-
-// Coordinates of the common frame are rounded by more here than floats are.
-TYPED_TEST(AuditOf, SheetsFarFromTheirOrigins) {
-  const double far = this->kDouble ? 0x1p37 : 0x1p8;
-  for (const double share : {1.0, 0.3}) {
-    auditSheets<TypeParam>(share * far * fcl::Vector3d(1, -0.7, 0.9), 1);
+TYPED_TEST(AuditOf, ParallelSheets) {
+  const fcl::Vector3d zero = fcl::Vector3d::Zero();
+  const fcl::Vector3d far = (this->kDouble ? 0x1p37 : 0x1p8) * fcl::Vector3d(1, -0.7, 0.9);
+  for (const bool unlike : {false, true}) {
+    auditSheets<TypeParam>(zero, 1, unlike);
+    // The largest stretch that passes for a rotation, or nearly so.
+    for (const double e : {-2.8e-5, 2.8e-5}) auditSheets<TypeParam>(zero, 1 + e, unlike);
+    // Coordinates of the common frame are rounded by more here than floats are.
+    for (const double share : {1.0, 0.3}) auditSheets<TypeParam>(share * far, 1, unlike);
   }
 }
 

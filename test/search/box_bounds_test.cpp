@@ -108,7 +108,6 @@ Nearest nearest(const Content& a, const Content& b, const Mat& R, const Vec& t) 
   return {p, q, (q - p).norm()};
 }
 
-/// Returns a number of any size in [least, most], by logarithms.
 Eigen::Vector3f direction(Random& random) { return inCube(random).cast<float>(); }
 
 Box boxOf(const Eigen::Matrix3f& axes, const Eigen::Vector3f& center, const Eigen::Vector3f& half) {

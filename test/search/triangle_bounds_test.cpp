@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenes/triangle_oracle.h"
 #include "search/on_targets.h"
 #include "search/root_body.h"
 #include "search/search.h"
@@ -95,28 +96,9 @@ using Real = long double;
 using Vec = Eigen::Matrix<Real, 3, 1>;
 using Mat = Eigen::Matrix<Real, 3, 3>;
 
-Real distanceToSegment(const Vec& p, const Vec& a, const Vec& b) {
-  const Vec e = b - a;
-  const Real square = e.squaredNorm();
-  const Real t = square > 0 ? std::clamp<Real>((p - a).dot(e) / square, 0, 1) : Real(0);
-  return (p - a - t * e).norm();
-}
-
-/// Returns an upper bound of the distance of a point to a triangle: where the triangle is thick,
-/// that but for rounding.
 Real distanceTo(const Vec& p, const FaceCorners& face) {
-  const Vec a = face[0].cast<Real>(), b = face[1].cast<Real>(), c = face[2].cast<Real>();
-  const Real by_edges = std::min(
-      {distanceToSegment(p, a, b), distanceToSegment(p, b, c), distanceToSegment(p, c, a)});
-  const Vec e = b - a, f = c - a, w = p - a;
-  const Real ee = e.squaredNorm();
-  if (!(ee > 0)) return by_edges;
-  const Vec h = f - f.dot(e) / ee * e;
-  const Real hh = h.squaredNorm();
-  if (!(hh > 1e-30L * ee)) return by_edges;
-  const Real t = w.dot(h) / hh, s = (w.dot(e) - t * f.dot(e)) / ee;
-  if (!(s >= 0 && t >= 0 && s + t <= 1)) return by_edges;
-  return std::min(by_edges, (w - s * e - t * f).norm());
+  return scenes::triangleDistance(
+      {p, p, p}, {face[0].cast<Real>(), face[1].cast<Real>(), face[2].cast<Real>()});
 }
 
 /// Returns triangles about `center`: of any shape, thin, and without an area or an extent.

@@ -19,31 +19,6 @@ using shape::Solid;
 using shape::Triangle;
 using shape::Vec;
 
-/// Returns the distance of a point outside, by bisection of |e p / (e^2 + t)| = 1.
-Real exactDistance(const Vec& e, const Vec& p) {
-  const auto square = [&](Real t) {
-    Real sum = 0;
-    for (int c = 0; c < 3; ++c) {
-      const Real w = Real(e[c]) * Real(p[c]) / (Real(e[c]) * Real(e[c]) + t);
-      sum += w * w;
-    }
-    return sum;
-  };
-  if (square(0) <= 1) return 0;
-  Real low = 0, high = 2 * (Real(e.maxCoeff()) * p.norm() + 1);
-  while (square(high) > 1) high *= 2;
-  for (int i = 0; i < 200; ++i) {
-    const Real middle = (low + high) / 2;
-    (square(middle) > 1 ? low : high) = middle;
-  }
-  Real sum = 0;
-  for (int c = 0; c < 3; ++c) {
-    const Real off = high * Real(p[c]) / (Real(e[c]) * Real(e[c]) + high);
-    sum += off * off;
-  }
-  return std::sqrt(sum);
-}
-
 // Radii from 1e-9 of the largest, points from far away to 1e-12 off the surface, on axes and planes
 // of symmetry.
 TEST(Ellipsoid, NearestPointsAreExact) {
@@ -62,7 +37,7 @@ TEST(Ellipsoid, NearestPointsAreExact) {
     const Vec on = s.half.cwiseProduct(u.normalized());
     const Vec p = cases.pick(3) ? Vec(on + cases.power(-12, 3) * cases.vector())
                                 : Vec(on * (1 + cases.power(-12, 3)));
-    const Real exact = exactDistance(s.half, p);
+    const Real exact = pointLevel(s, p.cast<Real>());  // by bisection
     const auto q = shape::nearestPoint(s, p);
     if (!(exact > 0)) continue;
     const Real size = p.norm() + s.half.maxCoeff();

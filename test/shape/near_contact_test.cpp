@@ -63,17 +63,20 @@ Real outside(const NearPair& pair, const Vec& p) {
 
 class NearContact : public ::testing::TestWithParam<Kind> {};
 
+// The normal of a needle, which is the last form, has digits only as the product of its short
+// edges.
 TEST_P(NearContact, PromisesAreKept) {
   const Kind kind = GetParam();
   const Real promised = isRound(kind) ? 0x1p-43L : 0x1p-46L;
-  const int count = isRound(kind) ? 150 : 1500;
+  const int count = isRound(kind) ? 150 : 1500, needles = static_cast<int>(std::size(kSizes));
   SolidCases cases((std::getenv("SEED") ? 1000 * atoi(std::getenv("SEED")) : 31) +
                    static_cast<int>(kind));
-  for (const Size size : kSizes) {
+  for (int form = 0; form <= needles; ++form) {
     int apart = 0, wrong_verdicts = 0, wrong_ends = 0;
     Real worst = 0, below = 0, above = 0, off = 0, split = 0, contact_off = 0;
-    for (int i = 0; i < count; ++i) {
-      const NearPair pair = nearPair(cases, kind, size);
+    for (int i = 0; i < (form == needles ? 2 : 1) * count; ++i) {
+      const NearPair pair =
+          form == needles ? nearNeedle(cases, kind) : nearPair(cases, kind, kSizes[form]);
       const Real L = pair.extent;
       const Real band = unsureWithin(pair);
       const auto d = shape::distance(pair.solid, pair.triangle, kInfinity);
@@ -103,9 +106,7 @@ TEST_P(NearContact, PromisesAreKept) {
                         ? pair.distance < enough - promised * L
                         : std::abs(ended.distance - pair.distance) > promised * L;
     }
-    const auto where = [&] {
-      return std::string(nameOf(kind)) + ", size " + std::to_string(int(size));
-    };
+    const auto where = [&] { return std::string(nameOf(kind)) + ", form " + std::to_string(form); };
     EXPECT_GT(apart, count / 4) << where();
     EXPECT_EQ(wrong_verdicts, 0) << where();
     EXPECT_EQ(wrong_ends, 0) << where();
@@ -116,30 +117,6 @@ TEST_P(NearContact, PromisesAreKept) {
     EXPECT_LE(off, 0x1p-46L) << where() << ": witness points";
     EXPECT_LE(contact_off, 0x1p-46L) << where() << ": contact point";
   }
-}
-
-// The normal of a needle has digits only as the product of its short edges.
-TEST_P(NearContact, NeedlesAreJudgedAsWell) {
-  const Kind kind = GetParam();
-  const Real promised = isRound(kind) ? 0x1p-43L : 0x1p-46L;
-  SolidCases cases(51 + static_cast<int>(kind));
-  int apart = 0, wrong_verdicts = 0;
-  Real worst = 0;
-  for (int i = 0; i < (isRound(kind) ? 300 : 4000); ++i) {
-    const NearPair pair = nearNeedle(cases, kind);
-    if (!pair.judged) continue;
-    const Real band = unsureWithin(pair);
-    const bool meets = shape::intersects(pair.solid, pair.triangle);
-    const auto d = shape::distance(pair.solid, pair.triangle, kInfinity);
-    EXPECT_EQ(d.distance == 0, meets);
-    wrong_verdicts += meets ? pair.distance > band : pair.depth > band;
-    if (meets || pair.depth > 0) continue;
-    ++apart;
-    worst = std::max(worst, std::abs(d.distance - pair.distance) / pair.extent);
-  }
-  EXPECT_GT(apart, isRound(kind) ? 100 : 1000) << nameOf(kind);
-  EXPECT_EQ(wrong_verdicts, 0) << nameOf(kind);
-  EXPECT_LE(worst, promised) << nameOf(kind);
 }
 
 Triangle triangleThrough(const Vec& at, SolidCases& cases) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,12 +21,16 @@
 #include "scenes/random.h"
 #include "scenes/shape_geometry.h"
 #include "scenes/shapes.h"
-#include "shape/golden_section.h"
+#include "scenes/triangle_oracle.h"
 
 // FCL's nine shapes and an oracle for them in long double that shares no code with the library:
 // closed forms for points, and golden-section search over the triangle.
 
 namespace kios::testing {
+
+using Real = long double;
+using scenes::ExactPoint;
+using scenes::ExactTriangle;
 
 enum class Shape {
   kBox,
@@ -109,24 +114,104 @@ std::shared_ptr<fcl::CollisionGeometry<S>> makeShape(const ShapeSpec& spec) {
   }
 }
 
-/// Returns the distance to a convex set in the (rho, z) half-plane: the cone's triangle.
-inline Real segmentDistance(Real x, Real y, Real ax, Real ay, Real bx, Real by) {
-  const Real dx = bx - ax, dy = by - ay, squared = dx * dx + dy * dy;
-  Real t = squared > 0 ? ((x - ax) * dx + (y - ay) * dy) / squared : 0;
-  t = std::clamp(t, Real(0), Real(1));
-  return std::hypot(x - ax - t * dx, y - ay - t * dy);
+/// Golden section for the least value of a convex function on [0, 1]; returns where.
+template <typename F>
+Real leastAt(const F& f, int steps) {
+  const Real phi = (std::sqrt(Real(5)) - 1) / 2;
+  Real low = 0, high = 1, a = high - phi, b = low + phi, fa = f(a), fb = f(b);
+  Real at = fa <= fb ? a : b, least = std::min(fa, fb);
+  const auto note = [&](Real x, Real value) {
+    if (value < least) {
+      least = value;
+      at = x;
+    }
+  };
+  note(0, f(0));
+  note(1, f(1));
+  for (int i = 0; i < steps; ++i) {
+    if (fa <= fb) {
+      high = b;
+      b = a;
+      fb = fa;
+      a = high - phi * (high - low);
+      fa = f(a);
+      note(a, fa);
+    } else {
+      low = a;
+      a = b;
+      fa = fb;
+      b = low + phi * (high - low);
+      fb = f(b);
+      note(b, fb);
+    }
+  }
+  return at;
 }
 
-inline Real ellipsoidDistance(const ExactPoint& e, const ExactPoint& p) {
-  Real low = 0, high = e.cwiseProduct(p).norm();  // of t in x_i = e_i^2 p_i / (e_i^2 + t)
-  const auto x = [&](Real t) {
-    return ExactPoint(e.array().square() * p.array() / (e.array().square() + t));
+/// Returns the least value of a convex function of points over a triangle.
+template <typename F>
+Real leastOver(const ExactTriangle& t, const F& f) {
+  constexpr int kSteps = 64;
+  const auto inner = [&](Real u) {
+    const ExactPoint from = t[0] + u * (t[1] - t[0]), to = t[0] + u * (t[2] - t[0]);
+    const auto at = [&](Real w) { return f(ExactPoint(from + w * (to - from))); };
+    return at(leastAt(at, kSteps));
   };
-  for (int i = 0; i < 75; ++i) {
+  return inner(leastAt(inner, kSteps));
+}
+
+/// Returns the nearest point of an ellipsoid, some of whose radii may be 0, to one that isn't in
+/// it.
+inline ExactPoint nearestOfEllipsoid(const ExactPoint& e, const ExactPoint& p) {
+  const auto inUnits = [&](Real t) {  // x_i = e_i^2 p_i / (e_i^2 + t)
+    ExactPoint q = ExactPoint::Zero();
+    for (int c = 0; c < 3; ++c) {
+      if (e[c] > 0) q[c] = e[c] * p[c] / (e[c] * e[c] + t);
+    }
+    return q;
+  };
+  Real low = 0, high = e.cwiseProduct(p).norm();
+  for (int i = 0; i < 110; ++i) {
     const Real t = (low + high) / 2;
-    (x(t).cwiseQuotient(e).squaredNorm() > 1 ? low : high) = t;
+    (inUnits(t).squaredNorm() > 1 ? low : high) = t;
   }
-  return (p - x(high)).norm();
+  return e.cwiseProduct(inUnits(high));
+}
+
+/// Returns the distance of a cylinder or cone of radius r and half length h; negative inside, where
+/// it is -(the depth at most).
+inline Real turnedLevel(Real r, Real h, bool cone, const ExactPoint& p,
+                        ExactPoint* nearest = nullptr) {
+  const Real rho = std::hypot(p.x(), p.y()), z = p.z();
+  const Real side =
+      !cone || h == 0 ? rho - r : (2 * h * (rho - r) + r * (z + h)) / std::hypot(2 * h, r);
+  const Real inside = std::max({side, -h - z, z - h});
+  if (inside <= 0) {
+    if (nearest) *nearest = p;
+    return inside;
+  }
+  // In the half-plane (rho, z): a convex polygon, its sides from the axis out.
+  const Real corners[4][2] = {{0, -h}, {r, -h}, {cone ? 0 : r, h}, {0, h}};
+  Real best = std::numeric_limits<Real>::infinity(), at[2] = {0, 0};
+  for (int i = 0; i < 3; ++i) {
+    const Real *a = corners[i], *b = corners[i + 1];
+    const Real dx = b[0] - a[0], dz = b[1] - a[1], square = dx * dx + dz * dz;
+    Real t = square > 0 ? ((rho - a[0]) * dx + (z - a[1]) * dz) / square : 0;
+    t = std::clamp(t, Real(0), Real(1));
+    const Real x = a[0] + t * dx, y = a[1] + t * dz;
+    const Real d = (rho - x) * (rho - x) + (z - y) * (z - y);
+    if (d < best) {
+      best = d;
+      at[0] = x;
+      at[1] = y;
+    }
+  }
+  if (nearest) {
+    const Real scale = rho > 0 ? at[0] / rho : 0;
+    *nearest =
+        rho > 0 ? ExactPoint(scale * p.x(), scale * p.y(), at[1]) : ExactPoint(at[0], 0, at[1]);
+  }
+  return std::sqrt(best);
 }
 
 inline ExactTriangle exactCorners(const scenes::Mesh& mesh, const fcl::Triangle& t) {
@@ -147,23 +232,13 @@ inline Real level(const ShapeSpec& s, const ExactPoint& p, bool distance) {
       return p.norm() - v[0];
     case Shape::kEllipsoid: {
       const Real level = p.cwiseQuotient(v).norm() - 1;
-      return level <= 0 || !distance ? level * v.minCoeff() : ellipsoidDistance(v, p);
+      return level <= 0 || !distance ? level * v.minCoeff() : (p - nearestOfEllipsoid(v, p)).norm();
     }
     case Shape::kCapsule:
       return std::hypot(rho, std::max(std::abs(p.z()) - h, Real(0))) - v[0];
-    case Shape::kCylinder: {
-      const Real a = rho - v[0], b = std::abs(p.z()) - h;
-      return std::max(a, b) <= 0 || !distance
-                 ? std::max(a, b)
-                 : std::hypot(std::max(a, Real(0)), std::max(b, Real(0)));
-    }
-    case Shape::kCone: {
-      const Real slant = (2 * h * (rho - v[0]) + v[0] * (p.z() + h)) / std::hypot(2 * h, v[0]);
-      const Real inside = std::max(-h - p.z(), slant);
-      if (inside <= 0 || !distance) return inside;
-      return std::min(segmentDistance(rho, p.z(), 0, -h, v[0], -h),
-                      segmentDistance(rho, p.z(), v[0], -h, 0, h));
-    }
+    case Shape::kCylinder:
+    case Shape::kCone:
+      return turnedLevel(v[0], h, s.kind == Shape::kCone, p);
     case Shape::kConvex: {
       Real inside = -1e30L, outside = 1e30L;
       for (const auto& t : s.hull.triangles) {

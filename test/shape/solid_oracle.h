@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fcl_kios/triangle.h"
-#include "shape/golden_section.h"
+#include "shape/shape_oracle.h"
 #include "shape/solid.h"
 #include "shape/triangle_shape.h"
 
@@ -65,7 +65,6 @@ inline std::vector<ExactTriangle> coreFaces(const shape::Solid& s) {
 /// Nearest point of a cylinder, cone or ellipsoid; the distance is negative inside, where it is
 /// -(the depth at most).
 inline Real pointLevel(const shape::Solid& s, const ExactPoint& p, ExactPoint* nearest = nullptr) {
-  const Real r = s.radius, h = s.half_length;
   if (s.kind == shape::Kind::kEllipsoid) {
     const ExactPoint e = s.half.cast<Real>();
     Real level = 0;
@@ -77,65 +76,12 @@ inline Real pointLevel(const shape::Solid& s, const ExactPoint& p, ExactPoint* n
         outside_flat |= p[c] != 0;
       }
     }
-    if (level <= 1 && !outside_flat) {
-      if (nearest) *nearest = p;
-      return (std::sqrt(level) - 1) * e.minCoeff();
-    }
-    Real low = 0, high = e.cwiseProduct(p).norm();
-    const auto at = [&](Real t) {
-      ExactPoint x = ExactPoint::Zero();
-      for (int c = 0; c < 3; ++c) {
-        if (e[c] > 0) x[c] = e[c] * (e[c] * p[c] / (e[c] * e[c] + t));
-      }
-      return x;
-    };
-    if (level > 1) {
-      for (int i = 0; i < 110; ++i) {
-        const Real t = (low + high) / 2, square = [&] {
-          Real sum = 0;
-          for (int c = 0; c < 3; ++c) {
-            const Real q = e[c] > 0 ? e[c] * p[c] / (e[c] * e[c] + t) : Real(0);
-            sum += q * q;
-          }
-          return sum;
-        }();
-        (square > 1 ? low : high) = t;
-      }
-    }
-    const ExactPoint x = at(level > 1 ? high : 0);
+    const bool inside = level <= 1 && !outside_flat;
+    const ExactPoint x = inside ? p : nearestOfEllipsoid(e, p);
     if (nearest) *nearest = x;
-    return (p - x).norm();
+    return inside ? (std::sqrt(level) - 1) * e.minCoeff() : (p - x).norm();
   }
-  // In the half-plane (rho, z) of a turned solid: a convex polygon, its sides from the axis out.
-  const Real rho = std::hypot(p.x(), p.y()), z = p.z();
-  const bool cone = s.kind == shape::Kind::kCone;
-  const Real corners[4][2] = {{0, -h}, {r, -h}, {cone ? 0 : r, h}, {0, h}};
-  Real best = std::numeric_limits<Real>::infinity(), at[2] = {0, 0};
-  for (int i = 0; i < 3; ++i) {
-    const Real *a = corners[i], *b = corners[i + 1];
-    const Real dx = b[0] - a[0], dz = b[1] - a[1], square = dx * dx + dz * dz;
-    Real t = square > 0 ? ((rho - a[0]) * dx + (z - a[1]) * dz) / square : 0;
-    t = std::clamp(t, Real(0), Real(1));
-    const Real x = a[0] + t * dx, y = a[1] + t * dz, d = std::hypot(rho - x, z - y);
-    if (d < best) {
-      best = d;
-      at[0] = x;
-      at[1] = y;
-    }
-  }
-  const Real slant = std::hypot(2 * h, r);
-  const Real side = !cone || h == 0 ? rho - r : (2 * h * (rho - r) + r * (z + h)) / slant;
-  const Real inside = std::max({side, -h - z, z - h});
-  if (inside <= 0) {
-    if (nearest) *nearest = p;
-    return std::min(inside, Real(0));
-  }
-  if (nearest) {
-    const Real scale = rho > 0 ? at[0] / rho : 0;
-    *nearest =
-        rho > 0 ? ExactPoint(scale * p.x(), scale * p.y(), at[1]) : ExactPoint(at[0], 0, at[1]);
-  }
-  return best;
+  return turnedLevel(s.radius, s.half_length, s.kind == shape::Kind::kCone, p, nearest);
 }
 
 /// Returns the least level of a cylinder, cone or ellipsoid over the triangle: negative where the

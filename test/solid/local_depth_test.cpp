@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "not_finite.h"
+#include "scenes/depth_oracle.h"
+#include "scenes/triangle_families.h"
 #include "solid/solid_meshes.h"
 #include "together.h"
 
@@ -131,6 +133,47 @@ TEST(LocalDepth, OfFacesThatOnlyTouch) {
     EXPECT_LE(found.upper, 2e-11);
     EXPECT_FALSE(deeperThan(*box, kHere, *box, X, 1e-9));
   }
+}
+
+/// Faces, edges and middles coincide, and unions have walls.
+TEST(LocalDepth, OfBoxesOnAGrid) {
+  Random random(29);
+  const auto whole = [&](int low, int high) { return 1.0 * scenes::integer(random, low, high); };
+  const auto boxes = [&](const Vector3d& by) {
+    std::vector<Mesh> parts;
+    for (int k = scenes::integer(random, 1, 3); k > 0; --k) {
+      Vector3d low, size;
+      for (int c = 0; c < 3; ++c) {
+        low[c] = whole(0, 3);
+        size[c] = whole(1, 4 - static_cast<int>(low[c]));
+      }
+      const Mesh box = subdividedBox(size, scenes::integer(random, 1, 2));
+      parts.push_back(transformed(box, 1, by + low + size / 2));
+    }
+    return merged(parts);
+  };
+  int closed = 0, walls = 0;
+  const int cases = casesOr(60);
+  for (int i = 0; i < cases; ++i) {
+    Vector3d by;
+    for (int c = 0; c < 3; ++c) by[c] = 0.5 * whole(-3, 3);
+    if (i % 4 == 0) by[0] += 1e-7;
+    const scenes::DepthOracle a(boxes(Vector3d::Zero())), b(boxes(by));
+    LocalDepthRequest request;
+    request.max_pieces = 3000;
+    const auto found = localDepth(*solidOf(a.mesh), kHere, *solidOf(b.mesh), kHere, request);
+    EXPECT_LE(scenes::deepestSample(a, b, 2), found.upper + 1e-11) << i;
+    EXPECT_LE(scenes::deepestSample(b, a, 2), found.upper + 1e-11) << i;
+    EXPECT_LE(scenes::largestBall(a, b, 200, random), found.upper + 1e-11) << i;
+    if (found.lower > 1e-9) {
+      const Vector3d p = Eigen::Map<const Vector3d>(found.point);
+      EXPECT_GE(scenes::provenDepth(a, b, p, 1e-10), found.lower - 1e-11) << i;
+    }
+    closed += found.complete ? 1 : 0;
+    walls += found.upper > 1.02 * found.lower + 1e-9 ? 1 : 0;
+  }
+  EXPECT_GT(closed, cases / 3);
+  EXPECT_GT(walls, 0);
 }
 
 /// Walls within a union aren't its surface.

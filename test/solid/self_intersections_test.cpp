@@ -15,6 +15,7 @@
 
 #include <boost/rational.hpp>
 
+#include "scalars.h"
 #include "solid/solid_meshes.h"
 
 namespace kios::testing {
@@ -144,10 +145,7 @@ TEST(SelfIntersections, TrianglesWithEqualCornersMeetNone) {
   }
 }
 
-template <typename S>
-class SelfIntersectionsOf : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(SelfIntersectionsOf, Scalars);
+KIOS_SCALAR_SUITE(SelfIntersectionsOf);
 
 /// A soup that cuts itself a lot, with vertices of a lattice: some far away, some tiny.
 TYPED_TEST(SelfIntersectionsOf, AreAllPairsOnceInOrder) {

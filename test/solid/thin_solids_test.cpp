@@ -11,22 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "scenes/placement.h"
 #include "solid/solid_meshes.h"
 
 namespace kios::testing {
 namespace {
-
-fcl::Transform3d turned(double angle, const fcl::Vector3d& axis, const fcl::Vector3d& translation) {
-  fcl::Transform3d X = fcl::Transform3d::Identity();
-  X.linear() = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
-  X.translation() = translation;
-  return X;
-}
-
-Mesh baked(Mesh mesh, const fcl::Transform3d& X) {
-  for (fcl::Vector3d& p : mesh.vertices) p = X * p;
-  return mesh;
-}
 
 void expectClosed(const PenetrationResult& depth, const std::string& what) {
   EXPECT_GT(depth.lower, 0) << what;
@@ -35,7 +24,11 @@ void expectClosed(const PenetrationResult& depth, const std::string& what) {
 
 TEST(ThinSolids, BracketsClose) {
   const auto cube = solidOf(scenes::subdividedBox({0.5, 0.5, 0.5}, 1));
-  const fcl::Transform3d X = turned(0.3, {1, 2, 3}, {0.05, 0.1, 0.15});
+  using scenes::shift, scenes::turn;
+  const fcl::Vector3d axis = fcl::Vector3d(1, 2, 3).normalized(),
+                      other = fcl::Vector3d(3, -1, 2).normalized();
+  const fcl::Transform3d X = shift(0.05, 0.1, 0.15) * turn(0.3, axis),
+                         Y = shift(0.3, 0.2, 0.1) * turn(1.1, other);
   for (const double thin : {1e-2, 1e-4, 1e-5, 1e-6, 1e-7}) {
     const Mesh needle = scenes::subdividedBox({1, thin, thin}, 1),
                sheet = scenes::subdividedBox({1, 0.7, thin}, 1),
@@ -47,7 +40,7 @@ TEST(ThinSolids, BracketsClose) {
       expectClosed(penetration(*cube, kHere, *solidOf(mesh), X), what);
       // Faces of coordinates that are rounded bulge by 1e-16, against which thinner ones are thick.
       if (thin >= 1e-6) {
-        const auto rounded = solidOf(baked(mesh, turned(1.1, {3, -1, 2}, {0.3, 0.2, 0.1})));
+        const auto rounded = solidOf(scenes::moved(Y, mesh));
         expectClosed(penetration(*cube, kHere, *rounded, kHere), what + ", rounded");
       }
     }

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <map>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -14,7 +13,8 @@
 
 #include "search/prepared_pair.h"
 
-// Checks a prepared tree against its mesh: all of it is there, and nothing sticks out.
+// Checks a prepared tree against its mesh: all of it is there, and nothing sticks out. What else
+// leaves hold of features is what searches find: search/brute_force_test.cpp, audit_test.cpp.
 
 namespace kios::testing {
 
@@ -28,16 +28,10 @@ using Exact = boost::multiprecision::cpp_bin_float_100;
 
 /// Coordinates as they are compared: -0 and 0 are equal.
 using Coordinates = std::tuple<double, double, double>;
-using Edge = std::pair<Coordinates, Coordinates>;
 
 template <typename S>
 Coordinates coordinates(const Point<S>& p) {
   return {double{p[0]}, double{p[1]}, double{p[2]}};
-}
-
-template <typename S>
-Edge edgeOf(const TriangleVertices<S>& t, std::uint32_t k) {
-  return std::minmax({coordinates(t[k]), coordinates(t[(k + 1) % 3])});
 }
 
 /// Calls visit(row, half, sign) for each of a node's spheres, which is row + sign half.
@@ -118,7 +112,6 @@ class TreeOf {
     for (const int seen : leaf_seen_) EXPECT_EQ(seen, 1);
     for (std::size_t t = 0; t < shape_.triangles.size(); ++t) EXPECT_EQ(in_leaf_.count(t), 1u);
     EXPECT_EQ(in_leaf_.size(), shape_.triangles.size());
-    checkOwners();
   }
 
  private:
@@ -202,138 +195,43 @@ class TreeOf {
     return p.template cast<double>() - Eigen::Map<const Eigen::Vector3d>(tree_.origin);
   }
 
-  /// Returns a chunk's row of lane i.
-  float lane(std::size_t offset, int rows, std::uint32_t i, int row) const {
-    return tree_
-        .lanes[offset + i / kLanes * static_cast<std::uint32_t>(rows) +
-               static_cast<std::uint32_t>(row)]
-        .v[i % kLanes];
-  }
-  Eigen::Vector3f vector(std::size_t offset, int rows, std::uint32_t i, int row) const {
-    return {lane(offset, rows, i, row), lane(offset, rows, i, row + 1),
-            lane(offset, rows, i, row + 2)};
+  /// Returns a leaf's vertex i, from the rows of its chunk.
+  Eigen::Vector3f vertex(const Leaf& leaf, std::uint32_t i) const {
+    const auto* const rows = tree_.lanes.data() + leaf.offset + 3 * (i / kLanes);
+    return {rows[0].v[i % kLanes], rows[1].v[i % kLanes], rows[2].v[i % kLanes]};
   }
 
   Points checkLeaf(std::size_t index) {
     const Leaf& leaf = tree_.leaves[index];
     const FeatureId* const ids = tree_.features.data() + leaf.feature_offset;
-    const std::size_t faces = leaf.offset + 3u * static_cast<unsigned>(leaf.vertexChunks());
     EXPECT_GE(leaf.num_faces, 1);
     EXPECT_LE(leaf.num_faces, engine::kLeafTriangles);
     EXPECT_LE(leaf.num_owned, leaf.num_vertices);
-    EXPECT_LE(faces + engine::kFaceRows, tree_.lanes.size());
 
     std::set<Coordinates> distinct;
     for (std::uint32_t i = 0; i < leaf.num_faces; ++i) {
       EXPECT_EQ(ids[i].corner(), 0u);
-      EXPECT_TRUE(in_leaf_.emplace(ids[i].triangle(), index).second);
+      EXPECT_TRUE(in_leaf_.insert(ids[i].triangle()).second);
       for (std::uint32_t k = 0; k < 3; ++k) {
         distinct.insert(coordinates(cornerOf(ids[i], k)));
-        EXPECT_EQ(vector(leaf.offset, 3, leaf.corners[3 * i + k], 0),
+        EXPECT_EQ(vertex(leaf, leaf.corners[3 * i + k]),
                   relative(cornerOf(ids[i], k)).template cast<float>());
       }
-      checkFace(faces, i, ids[i]);
     }
     EXPECT_EQ(leaf.num_vertices, distinct.size());
-    for (std::uint32_t i = 0; i < leaf.num_edges; ++i) {
-      const FeatureId id = ids[leaf.num_faces + i];
-      for (std::uint32_t k = 0; k < 2; ++k) {
-        EXPECT_LT((leaf.ends[i] >> 8 * k & 0xFF), leaf.num_vertices);
-        EXPECT_EQ(vector(leaf.offset, 3, (leaf.ends[i] >> 8 * k & 0xFF), 0),
-                  relative(cornerOf(id, k)).template cast<float>());
-      }
-      EXPECT_TRUE(edge_owner_
-                      .emplace(edgeOf(shape_.corners(id.triangle()), id.corner()),
-                               std::pair(index, id.packed))
-                      .second);
-    }
-    for (std::uint32_t i = 0; i < leaf.num_owned; ++i) {
-      const FeatureId id = ids[leaf.num_faces + leaf.num_edges + i];
-      EXPECT_EQ(vector(leaf.offset, 3, i, 0), relative(cornerOf(id)).template cast<float>());
-      EXPECT_TRUE(
-          vertex_owner_.emplace(coordinates(cornerOf(id)), std::pair(index, id.packed)).second);
-    }
-    checkAcross(leaf);
     Points points;
     for (std::uint32_t i = 0; i < 8u * static_cast<unsigned>(leaf.vertexChunks()); ++i) {
-      points.push_back(vector(leaf.offset, 3, i, 0));
+      points.push_back(vertex(leaf, i));
       EXPECT_TRUE(i < leaf.num_vertices || points[i] == points[leaf.num_vertices - 1u]);
     }
     return points;
-  }
-
-  /// The direction across a leaf has length 1 or 0, and its vertices lie where the leaf says.
-  void checkAcross(const Leaf& leaf) const {
-    const Eigen::Vector3d normal = Eigen::Map<const Eigen::Vector3f>(leaf.normal).cast<double>();
-    EXPECT_LE(std::min(normal.norm(), std::abs(normal.norm() - 1)), 0x1p-21);
-    double bottom = 1e300, top = -1e300;
-    for (std::uint32_t i = 0; i < leaf.num_vertices; ++i) {
-      const double h = normal.dot(vector(leaf.offset, 3, i, 0).template cast<double>());
-      bottom = std::min(bottom, h);
-      top = std::max(top, h);
-    }
-    EXPECT_NEAR(leaf.normal_bottom, bottom, 0x1p-21 * tree_.reach);
-    EXPECT_NEAR(leaf.normal_top, top, 0x1p-21 * tree_.reach);
-  }
-
-  /// Planes hold their corners; the inside of each edge plane is where the third corner lies.
-  void checkFace(std::size_t faces, std::uint32_t i, FeatureId id) const {
-    const auto row = [&](int r) { return double{lane(faces, engine::kFaceRows, i, r)}; };
-    const auto height = [&](int r, const Eigen::Vector3d& p) {
-      return row(r) * p[0] + row(r + 1) * p[1] + row(r + 2) * p[2] + row(r + 3);
-    };
-    const auto isUnit = [&](int r) {
-      return std::abs(row(r) * row(r) + row(r + 1) * row(r + 1) + row(r + 2) * row(r + 2) - 1) <
-             0x1p-21;
-    };
-    const double pad = 0x1p-19 * tree_.reach;
-    const bool thin = row(0) == 0 && row(1) == 0 && row(2) == 0;
-    EXPECT_TRUE(thin || isUnit(engine::kFacePlane));
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const Eigen::Vector3d corner = relative(cornerOf(id, k));
-      EXPECT_LE(std::abs(height(engine::kFacePlane, corner)), pad);
-      for (int edge = 0; edge < 3; ++edge) {
-        EXPECT_GE(height(engine::kEdgePlanes + 4 * edge, corner), -pad);
-      }
-      EXPECT_TRUE(thin || isUnit(engine::kEdgePlanes + 4 * static_cast<int>(k)));
-    }
-  }
-
-  /// Each edge and vertex of the mesh has one owner, which holds a triangle of it and names it by
-  /// the first triangle that has it.
-  void checkOwners() const {
-    std::map<Edge, std::uint32_t> first_edge;
-    std::map<Coordinates, std::uint32_t> first_vertex;
-    std::set<std::pair<Edge, std::size_t>> edge_in_leaf;
-    std::set<std::pair<Coordinates, std::size_t>> vertex_in_leaf;
-    for (std::uint32_t t = 0; t < shape_.triangles.size(); ++t) {
-      const TriangleVertices<S> corners = shape_.corners(t);
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        first_edge.emplace(edgeOf(corners, k), t << 2 | k);
-        first_vertex.emplace(coordinates(corners[k]), t << 2 | k);
-        edge_in_leaf.emplace(edgeOf(corners, k), in_leaf_.at(t));
-        vertex_in_leaf.emplace(coordinates(corners[k]), in_leaf_.at(t));
-      }
-    }
-    ASSERT_EQ(edge_owner_.size(), first_edge.size());
-    ASSERT_EQ(vertex_owner_.size(), first_vertex.size());
-    for (const auto& [edge, owner] : edge_owner_) {
-      EXPECT_EQ(owner.second, first_edge.at(edge));
-      EXPECT_EQ(edge_in_leaf.count({edge, owner.first}), 1u);
-    }
-    for (const auto& [vertex, owner] : vertex_owner_) {
-      EXPECT_EQ(owner.second, first_vertex.at(vertex));
-      EXPECT_EQ(vertex_in_leaf.count({vertex, owner.first}), 1u);
-    }
   }
 
   const MeshIn<S>& shape_;
   const Tree& tree_;
   std::size_t nodes_seen_ = 0;
   std::vector<int> leaf_seen_;
-  std::map<std::size_t, std::size_t> in_leaf_;  ///< by triangle
-  std::map<Edge, std::pair<std::size_t, std::uint32_t>> edge_owner_;
-  std::map<Coordinates, std::pair<std::size_t, std::uint32_t>> vertex_owner_;
+  std::set<std::size_t> in_leaf_;  ///< triangles
 };
 
 }  // namespace kios::testing
