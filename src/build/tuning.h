@@ -16,7 +16,8 @@ constexpr int kSweep = 32;
 /// A part of a frame's triangles so small gets a frame of its own, if it is no leaf. 1: rows of
 /// world take 0.35 to 1.5 times as long, 0.98 in the mean (2026-11-30).
 constexpr int kReframe = 2;
-/// Triangles of a block, which fits the cache; by how many a larger node is cut. Not measured.
+/// Triangles of a block, which fits the cache; by how many a larger node is cut. A quarter to four
+/// times: build/models within 3 % in the mean (2026-11-30).
 constexpr int kBlock = 2048, kSample = 512;
 /// Below this ratio of extents the caps of an axis cut off next to nothing. 1 to 1.1 do as well,
 /// 1.25 costs 4 % of the volume tests, 1.5 9 %.
