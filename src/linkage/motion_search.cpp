@@ -166,9 +166,10 @@ MotionSearch::Look MotionSearch::local(const Task& task) {
     return local_[suspect.place];
   };
   const long long left = std::max(0LL, request_.max_queries - counts_.queries);
-  // About two pivots: four nodes a triangle, two tests each.
-  const long long attempt = 8LL * ((a ? a->num_tris : 0) + (b ? b->num_tris : 0));
-  const bool last = isShortest(task) && !suspect.undecided;
+  // What finds little takes about a test a triangle.
+  const long long attempt =
+      continuous::tuning::kTestsOfMoving * ((a ? a->num_tris : 0) + (b ? b->num_tris : 0));
+  const bool last = isShortest(task) && !suspect.undecided && contact_.suspect != task.suspect;
   if (!last && suspect.asked < std::max(suspect.retry, attempt)) return nothing;
   if (suspect.turns && attempt / tuning::kTestsOfQuery < left) {
     suspect.turns = false;
@@ -187,12 +188,14 @@ MotionSearch::Look MotionSearch::local(const Task& task) {
     slabs.slabs = std::make_unique<LocalSlabs>(path_, suspect.pair, request_.min_separation);
   }
   // No more is spent than was on queries since the last failure, lest a pair that these decide
-  // anyhow takes much longer. Where they can't decide it, all is.
-  const long long affords = suspect.asked / (2 * tuning::kTestsOfQuery);
-  const long long most = tuning::kTestsOfQuery * (last ? left : std::min(left, affords));
-  const long long before = slabs.slabs->cost();
+  // anyhow takes much longer. Where they can't decide it, ever more is.
+  const long long before = slabs.slabs->cost(), all = tuning::kTestsOfQuery * left;
+  long long most = std::min(all, std::max(tuning::kTestsOfQuery, suspect.asked / 2));
   slabs.from = task.from;
   slabs.to = slabs.slabs->provenFrom(task.from, 1, most);
+  while (last && slabs.to == slabs.from && (most *= 2) < all) {
+    slabs.to = slabs.slabs->provenFrom(task.from, 1, most);
+  }
   const long long cost = slabs.slabs->cost() - before;
   counts_.queries += cost / tuning::kTestsOfQuery;
   const double spared = (slabs.to - slabs.from) / std::max(suspect.way, request_.resolution);
