@@ -191,12 +191,13 @@ MotionSearch::Look MotionSearch::local(const Task& task) {
   // anyhow takes much longer. Where they can't decide it, ever more is.
   const long long before = slabs.slabs->cost(), all = tuning::kTestsOfQuery * left;
   long long most = std::min(all, std::max(tuning::kTestsOfQuery, suspect.asked / 2));
+  long long cost = 0;
   slabs.from = task.from;
-  slabs.to = slabs.slabs->provenFrom(task.from, 1, most);
-  while (last && slabs.to == slabs.from && (most *= 2) < all) {
+  do {
     slabs.to = slabs.slabs->provenFrom(task.from, 1, most);
-  }
-  const long long cost = slabs.slabs->cost() - before;
+    cost = slabs.slabs->cost() - before;
+    most *= 2;
+  } while (last && slabs.to == slabs.from && cost + most <= all);
   counts_.queries += cost / tuning::kTestsOfQuery;
   const double spared = (slabs.to - slabs.from) / std::max(suspect.way, request_.resolution);
   const bool saves =
