@@ -236,12 +236,13 @@ class BracketQuestion {
     return "no reason to stop";
   }
 
-  /// Whether so many pairs are as near as rounding can tell that an exact search ends at any of
-  /// them.
+  /// Whether so many pairs are as near as the search's floats, or the kernel's rounding, can tell
+  /// that an exact search ends at any of them.
   bool hasManyNearest() const {
     constexpr long kMany = 64;  // a thousand of their edges and corners
     const auto& all = truth_.distances();
-    const double limit = truth_.distance + 64 * truth_.kEps * truth_.extentOf(truth_.nearest);
+    const double limit =
+        truth_.distance * (1 + 0x1p-20) + 64 * truth_.kEps * truth_.extentOf(truth_.nearest);
     return std::count_if(all.begin(), all.end(), [limit](S d) { return d <= limit; }) >= kMany;
   }
 
