@@ -65,12 +65,14 @@ class MovingTwo final : public continuous::MovingBodies {
       const double far = (separation + rounding(0, separation)) * (1 + 0x1p-40) + 0x1p-500;
       return look(0, far, 0).distance < kInfinity ? Proof::kRefuted : Proof::kClear;
     }
+    // Those of two whole bodies take as long as a hundred tests of moving volumes, and longer.
+    constexpr long long kOfQuery =
+        continuous::tuning::kTestsOfQuery * continuous::tuning::kTestsOfMoving;
     for (double t = 0; t < 1;) {
-      pair->setLimits(
-          1, continuous::tuning::kTestsOfQuery * std::max(1LL, request_.max_queries - queries));
+      pair->setLimits(1, kOfQuery * std::max(1LL, request_.max_queries - queries));
       const long long before = pair->cost();
       const double h = pair->apartFor(t);
-      queries += 1 + (pair->cost() - before) / continuous::tuning::kTestsOfQuery;
+      queries += 1 + (pair->cost() - before) / kOfQuery;
       place = t;
       if (h >= 1 - t) break;
       if (queries >= request_.max_queries) return Proof::kSpent;

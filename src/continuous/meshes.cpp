@@ -267,6 +267,7 @@ bool MovingMeshes::planeParts(NodePair pair, const RelativeVelocities& v, double
     const Heights::Height below = {-limit.start - least, -limit.end - least};
     const bool part = a.isLeaf() ? of_b.below(b_, pair.b, below, nodes_left)
                                  : of_a.below(a_, pair.a, below, nodes_left);
+    // To set up both heights takes as long as half a test.
     visits_ += tuning::kTestsOfMoving / 2 + most - nodes_left;
     return part;
   };

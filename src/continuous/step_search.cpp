@@ -67,6 +67,7 @@ double StepSearch::apartFor(double t) {
   }
   budget_ = budget > budget_ ? budget : std::max(tuning::kLeastBudget, budget / 2);
   noteStep(h, cost() - before);
+  // One that ends at once, as the bodies touch there, says little of those from elsewhere.
   last_step_ = std::max(h, 0x1p-4 * last_step_);
   window_ = std::min(1.0, tuning::kWindow * last_step_);
   return h;

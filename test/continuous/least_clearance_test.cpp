@@ -24,6 +24,21 @@ double distanceAt(const Geometry& a, const fcl::MotionBased& motion_a, const Geo
   return fcl::distance(a.get(), X_WA, b.get(), X_WB, fcl::DistanceRequestd(), result);
 }
 
+// Nothing that users ask for ends by the budget that they don't name.
+TEST(LeastClearance, OfLargeMeshesThatTurn) {
+  const Geometry torus = kiosModel(scenes::bumpyTorus(4000));
+  const fcl::Vector3d axis = fcl::Vector3d(1, 2, 0.5).normalized();
+  const Transform3d turned = fcl::AngleAxisd(2.5, axis) * Transform3d::Identity();
+  for (const double z : {3.2, 3.6}) {
+    const Motion turning = motionOf(fcl::CCDM_LINEAR, at(0, 0, 0), turned),
+                 passing =
+                     motionOf(fcl::CCDM_LINEAR, at(0.5, 0, z), at(-0.4, 0.3, z - 0.3) * turned);
+    const RangeResult result = leastClearance(*torus, turning.get(), *torus, passing.get());
+    EXPECT_TRUE(result.complete);
+    EXPECT_LE(result.queries, RangeRequest().max_queries / 20);
+  }
+}
+
 // A box passes another one, and a ball; they are nearest side by side.
 TEST(LeastClearance, OfWhatPassesBy) {
   const Geometry box = kiosModel(scenes::subdividedBox({1, 1, 1}, 4)),
