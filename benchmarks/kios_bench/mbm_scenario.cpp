@@ -229,6 +229,30 @@ void measureQuestions(const std::string& name, const Robot& bare,
       scenario + "/free", "gradient", clear,
       {{"kios", each([](const Place& at, const VectorXd& q) { (void)at.robot.clearance(q); })}},
       false, options));
+  // Free edges, both ends in a column, beside a contact's question about the first one.
+  const Eigen::Index n = bare.coordinates();
+  std::normal_distribution<double> normal;
+  for (const char* const length : {"0.05", "0.2", "0.8"}) {
+    std::vector<std::pair<const Place*, Eigen::MatrixXd>> edges;
+    for (const auto& [place, starts] : clear) {
+      Eigen::MatrixXd ends(2 * n, 0);
+      for (const VectorXd start : starts.colwise()) {
+        const VectorXd way = VectorXd::NullaryExpr(n, [&] { return normal(random); });
+        const VectorXd end = start + std::stod(length) * way.normalized();
+        if (place->robot.checkMotion(start, end).verdict != MotionVerdict::kClear) continue;
+        ends.conservativeResize(Eigen::NoChange, ends.cols() + 1);
+        ends.rightCols(1) << start, end;
+      }
+      edges.emplace_back(place, std::move(ends));
+    }
+    const auto edge = each([n](const Place& at, const VectorXd& q) {
+      (void)at.robot.checkMotion(q.head(n), q.tail(n));
+    });
+    const auto start =
+        each([n](const Place& at, const VectorXd& q) { (void)at.robot.contact(q.head(n)); });
+    report.add(rowsOf(scenario + "/edges/" + length, "motion", edges,
+                      {{"kios", edge}, {"kios_contact", start}}, false, options));
+  }
 }
 
 void planAll(const std::string& name, const fs::path& folder, const Options& options,
